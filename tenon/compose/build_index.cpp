@@ -9,22 +9,24 @@ namespace tenon::compose {
 namespace {
 
 /// Specs of every contributing node, strongest first.
-void collect_opinions(PrimIndex& index) {
-  for (std::uint32_t id = 0; id < index.nodes.size(); ++id) {
-    const Node& node = index.nodes[id];
+void collect_opinions(const IndexServices& services, PrimIndex& index) {
+  OpinionDraft found;
+  for (std::uint32_t id = 0; id < index.nodes().size(); ++id) {
+    const Node& node = index.nodes()[id];
     if (!node.has_opinions()) {
       continue;
     }
     for (const StackedLayer& stacked : node.layer_stack->layers) {
       if (const std::uint32_t number = stacked.layer->number_of(node.path)) {
-        index.add_opinion(id, node, stacked, number);
+        found.push_back(Opinion::of(id, node, stacked, number));
       }
     }
   }
+  set_opinions(services, found, index);
 }
 
 void collect_selections(PrimIndex& index) {
-  for (const Node& node : index.nodes) {
+  for (const Node& node : index.nodes()) {
     if (node.path.is_variant_selection()) {
       index.make_extras().variant_selections.emplace(node.path.name().str(),
                                                      node.path.variant().str());
@@ -49,9 +51,9 @@ void build_with_arcs(const IndexServices& services, PrimIndex& index) {
   if (!errors.empty()) {
     index.make_extras().errors = std::move(errors);
   }
-  index.nodes.assign(graph.nodes());
-  *services.node_count += index.nodes.size();
-  collect_opinions(index);
+  index.kept_nodes.assign(graph.nodes());
+  *services.node_count += index.nodes().size();
+  collect_opinions(services, index);
   collect_selections(index);
   count_index(services, index);
   compose_child_names(index);
@@ -67,12 +69,16 @@ void build_non_local_child(const IndexServices& services, const PrimIndex& paren
 
 }  // namespace
 
+void set_opinions(const IndexServices& services, std::span<const Opinion> found, PrimIndex& index) {
+  index.set_opinions(found, found.size() == 1 ? services.maps->like(found.front()) : nullptr);
+}
+
 void build_root_index(const IndexServices& services, PrimIndex& index) {
   NodeGraph graph(*services.maps, *services.work);
   graph.reset(Site{services.root_stack, index.path});
   graph[0].has_specs = true;
-  index.nodes.assign(graph.nodes());
-  collect_opinions(index);
+  index.kept_nodes.assign(graph.nodes());
+  collect_opinions(services, index);
   compose_child_names(index);
   compose_property_names(index);
 }

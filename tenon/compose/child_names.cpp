@@ -173,8 +173,8 @@ void apply_relocates(const LayerStack& stack, Path path, GrowingNames& list,
 }
 
 bool is_in_culled_subtree(const PrimIndex& index, std::uint32_t id) {
-  for (; id != kNoNode; id = index.nodes[id].parent) {
-    if (index.nodes[id].culled) {
+  for (; id != kNoNode; id = index.nodes()[id].parent) {
+    if (index.nodes()[id].culled) {
       return true;
     }
   }
@@ -188,15 +188,15 @@ using NodeOpinions = std::span<const Opinion>;
 /// first, and its opinions in their order.
 template <class Visit>
 void visit_weak_to_strong(const PrimIndex& index, const Visit& visit) {
-  const Opinion* const opinions = index.opinions.data();
-  std::size_t end = index.opinions.size();
-  for (auto id = static_cast<std::uint32_t>(index.nodes.size()); id-- > 0;) {
+  const Opinions opinions = index.opinions();
+  std::size_t end = opinions.size();
+  for (auto id = static_cast<std::uint32_t>(index.nodes().size()); id-- > 0;) {
     std::size_t begin = end;
     while (begin > 0 && opinions[begin - 1].node == id) {
       --begin;
     }
     if (!is_in_culled_subtree(index, id)) {
-      visit(index.nodes[id], NodeOpinions(opinions + begin, end - begin));
+      visit(index.nodes()[id], NodeOpinions(opinions.data() + begin, end - begin));
     }
     end = begin;
   }

@@ -174,7 +174,7 @@ void build_graph(Indexer& indexer, const Site& site, bool root_contributes) {
     return start_from_site(indexer, site);
   }
   const PrimIndex& parent = indexer.services.index(site.path.parent());
-  indexer.graph.reset(parent.nodes);
+  indexer.graph.reset(parent.nodes());
   descend(indexer, site.path, parent.instanceable);
   expand_level(indexer, root_contributes);
 }

@@ -118,20 +118,20 @@ class Dump {
 
   void prim_stack(const PrimIndex& index) {
     text_ += "\nPrim Stack:\n";
-    for (const Opinion& opinion : index.opinions) {
+    for (const Opinion& opinion : index.opinions()) {
       spec_line(*opinion.layer, opinion.path);
     }
   }
 
   void time_offsets(const PrimIndex& index) {
-    const bool any = std::any_of(index.nodes.begin(), index.nodes.end(), [](const Node& node) {
+    const bool any = std::any_of(index.nodes().begin(), index.nodes().end(), [](const Node& node) {
       return !node.map_to_parent->offset().is_identity() || node.layer_stack->has_offsets;
     });
     if (!any) {
       return;
     }
     text_ += "\nTime Offsets:\n";
-    for (const Node& node : index.nodes) {
+    for (const Node& node : index.nodes()) {
       text_ += "    " + padded(label_(*node.layer_stack->layers.front().layer), 20) + " " +
                padded(node.path.str(), 15) + " " + padded(std::string(arc_name(node.arc)), 10) +
                " " + in_brackets(node.map_to_root->offset()) + "\n";
@@ -248,9 +248,9 @@ std::string dump_indices(IndexCache& cache, const LayerLabel& label,
 
 std::string dump_nodes(const PrimIndex& index, const LayerLabel& label) {
   std::string text;
-  std::vector<std::size_t> depths(index.nodes.size(), 0);
-  for (std::size_t id = 0; id < index.nodes.size(); ++id) {
-    const Node& node = index.nodes[id];
+  std::vector<std::size_t> depths(index.nodes().size(), 0);
+  for (std::size_t id = 0; id < index.nodes().size(); ++id) {
+    const Node& node = index.nodes()[id];
     depths[id] = node.parent == kNoNode ? 0 : depths[node.parent] + 1;
     text += std::string(2 * depths[id], ' ') + std::string(arc_name(node.arc)) + " " +
             label(*node.layer_stack->root) + " " + node.path.str();

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -35,6 +36,9 @@ struct IndexServices {
   WorkMeter* work = nullptr;          ///< of all indices built so far
   Twins* twins = nullptr;             ///< where prims may share what they bring in
 };
+
+/// Gives the index these opinions.
+void set_opinions(const IndexServices& services, std::span<const Opinion> found, PrimIndex& index);
 
 /// Links an index that is being built to the graph that it will become a part of.
 struct Frame {

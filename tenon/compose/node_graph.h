@@ -51,7 +51,7 @@ class NodeGraph {
   /// Starts over with a root node.
   void reset(const Site& site);
   /// Starts over with the nodes of the parent prim's index.
-  void reset(const LikeOrMany<Node>& nodes) {
+  void reset(const Nodes& nodes) {
     nodes_.reserve(nodes.size() + kNodesToCome);
     nodes_.assign(nodes.begin(), nodes.end());
     copies_known_ = false;

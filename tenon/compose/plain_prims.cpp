@@ -20,11 +20,12 @@ constexpr std::size_t kOpinionUnits = 4;  // for each of its opinions
 constexpr std::size_t kNamesForUnit = 4;  // names listed by its opinions
 
 void compose_names(PrimIndex& index) {
-  if (index.opinions.size() == 1 && !index.opinions.front().spec->has(layer::fields::primOrder)) {
-    const layer::Spec& spec = *index.opinions.front().spec;
+  const Opinions opinions = index.opinions();
+  if (opinions.size() == 1 && !opinions.front().spec->has(layer::fields::primOrder)) {
+    const layer::Spec& spec = *opinions.front().spec;
     index.child_names = NameList(spec, layer::fields::primChildren);
     index.set_property_names(NameList(spec, layer::fields::properties));
-  } else if (!index.opinions.empty()) {
+  } else if (!opinions.empty()) {
     compose_child_names(index);
     compose_property_names(index);
   }
@@ -36,7 +37,7 @@ bool goes_deeper_alone(const Node& node) {
 
 /// Takes the nodes one name deeper and gathers what the layers say there. False where an arc
 /// starts.
-bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
+bool descend(NodeGraph& graph, const Path child, OpinionDraft& found) {
   AuthoredArcs arcs;
   graph.descend(child);
   for (NodeId id = 0; id < graph.size(); ++id) {
@@ -51,7 +52,7 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
       const std::uint32_t number = stacked.layer->number_of(node.path);
       node.has_specs = node.has_specs || number != 0;
       if (number != 0 && node.can_contribute()) {
-        index.add_opinion(id, node, stacked, number);
+        found.push_back(Opinion::of(id, node, stacked, number));
         arcs.add(stacked.layer->numbered_spec(number));
       }
     }
@@ -61,7 +62,7 @@ bool descend(NodeGraph& graph, const Path child, PrimIndex& index) {
 
 /// Drops nodes that say nothing here. The others keep their order, and so do the opinions, which
 /// are told where their nodes are now.
-void drop_silent_nodes(NodeGraph& graph, PrimIndex& index) {
+void drop_silent_nodes(NodeGraph& graph, OpinionDraft& opinions) {
   const auto has_opinions = [](const Node& node) { return node.has_opinions(); };
   if (std::all_of(graph.nodes().begin() + 1, graph.nodes().end(), has_opinions)) {
     graph.count(kKeptUnits * graph.size());
@@ -71,7 +72,7 @@ void drop_silent_nodes(NodeGraph& graph, PrimIndex& index) {
   graph.finalize();
   NodeId before = kNoNode;
   NodeId now = kNoNode;
-  for (Opinion& opinion : index.opinions) {
+  for (Opinion& opinion : opinions) {
     if (opinion.node != before) {
       before = opinion.node;
       do {
@@ -86,51 +87,54 @@ void drop_silent_nodes(NodeGraph& graph, PrimIndex& index) {
 
 bool build_local_child(const IndexServices& services, const PrimIndex& parent, PrimIndex& index) {
   const bool no_more_arcs = services.work->exhausted();
-  if (!no_more_arcs && (parent.nodes.size() != 1 || services.root_stack->has_relocates())) {
+  if (!no_more_arcs && (parent.nodes().size() != 1 || services.root_stack->has_relocates())) {
     return false;
   }
-  services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * parent.opinions.size());
+  const Opinions above = parent.opinions();
+  services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * above.size());
   AuthoredArcs arcs;
-  for (const Opinion& above : parent.opinions) {
-    const std::uint32_t number = above.node == 0 ? above.layer->number_of(index.path) : 0;
+  OpinionDraft found;
+  for (const Opinion& opinion : above) {
+    const std::uint32_t number = opinion.node == 0 ? opinion.layer->number_of(index.path) : 0;
     if (number != 0) {
-      const layer::Spec& spec = above.layer->numbered_spec(number);
+      const layer::Spec& spec = opinion.layer->numbered_spec(number);
       arcs.add(spec);
-      index.opinions.push_back({above.layer, &spec, index.path, 0, number, above.offset});
+      found.push_back({opinion.layer, &spec, index.path, 0, number, opinion.offset});
     }
   }
   if (arcs.any() && !no_more_arcs) {
-    index.opinions.clear();
     return false;
   }
-  const bool has_specs = !index.opinions.empty();
-  const Node* like = parent.nodes.like();
+  set_opinions(services, found, index);
+  const bool has_specs = !found.empty();
+  const Node* like = parent.kept_nodes.like();
   if (like == nullptr || like->has_specs != has_specs) {
-    Node node = parent.nodes.front();
+    Node node = parent.nodes().front();
     node.first_child = node.last_child = kNoNode;
     node.has_specs = has_specs;
     like = services.maps->like(node);
   }
-  index.nodes.be_like(*like, index.path);
+  index.kept_nodes.be_like(*like);
   compose_names(index);
   return true;
 }
 
 bool build_child_below_arcs(const IndexServices& services, const PrimIndex& parent,
                             PrimIndex& index) {
-  if (parent.instanceable ||
-      !std::all_of(parent.nodes.begin(), parent.nodes.end(), goes_deeper_alone)) {
+  const Nodes nodes = parent.nodes();
+  if (parent.instanceable || !std::all_of(nodes.begin(), nodes.end(), goes_deeper_alone)) {
     return false;
   }
   NodeGraph graph(*services.maps, *services.work);
-  graph.reset(parent.nodes);
-  if (!descend(graph, index.path, index)) {
-    index.opinions.clear();
+  graph.reset(nodes);
+  OpinionDraft found;
+  if (!descend(graph, index.path, found)) {
     return false;
   }
-  drop_silent_nodes(graph, index);
-  index.nodes.assign(graph.nodes());
-  *services.node_count += index.nodes.size();
+  drop_silent_nodes(graph, found);
+  index.kept_nodes.assign(graph.nodes());
+  set_opinions(services, found, index);
+  *services.node_count += index.nodes().size();
   count_index(services, index);
   compose_names(index);
   return true;
@@ -138,11 +142,12 @@ bool build_child_below_arcs(const IndexServices& services, const PrimIndex& pare
 
 void count_index(const IndexServices& services, const PrimIndex& index) {
   std::size_t names = 0;
-  for (const Opinion& opinion : index.opinions) {
+  const Opinions opinions = index.opinions();
+  for (const Opinion& opinion : opinions) {
     names += layer::Layer::children(*opinion.spec, layer::fields::primChildren).size() +
              layer::Layer::children(*opinion.spec, layer::fields::properties).size();
   }
-  services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * index.opinions.size() +
+  services.work->count(kIndexUnits + index.path.depth() + kOpinionUnits * opinions.size() +
                        names / kNamesForUnit);
 }
 

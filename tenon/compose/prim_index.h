@@ -6,15 +6,17 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tenon/base/containers/index_iterator.h"
+#include "tenon/base/containers/short_list.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/compose/arcs/arc.h"
 #include "tenon/compose/containers/like_or_many.h"
-#include "tenon/compose/containers/one_or_many.h"
 #include "tenon/compose/layer_stack.h"
 #include "tenon/compose/maps/map_function.h"
 #include "tenon/layer/shared_contents.h"
@@ -67,6 +69,73 @@ struct Opinion {
   std::uint32_t node = 0;     ///< into PrimIndex::nodes
   std::uint32_t number = 0;   ///< of the spec, as the layer counts (Layer::number_of)
   layer::LayerOffset offset;  ///< stage time = offset(layer time)
+
+  bool operator==(const Opinion&) const = default;
+  static Opinion of(std::uint32_t id, const Node& node, const StackedLayer& stacked,
+                    std::uint32_t number) {
+    return {stacked.layer.get(),
+            &stacked.layer->numbered_spec(number),
+            node.path,
+            id,
+            number,
+            node.map_to_root->offset() * stacked.offset};
+  }
+};
+
+/// Opinions while they are gathered.
+using OpinionDraft = ShortList<Opinion, 8>;
+
+/// The nodes of an index, for as long as it is there. They come as copies.
+class Nodes {
+ public:
+  using Iterator = IndexIterator<Nodes, Node, Node>;
+
+  Nodes(const LikeOrMany<Node>& kept, Path prim) : kept_(&kept), prim_(prim) {}
+
+  std::size_t size() const { return kept_->size(); }
+  bool empty() const { return kept_->empty(); }
+  Node operator[](std::size_t at) const {
+    const Node* const like = kept_->like();
+    if (like == nullptr) {
+      return kept_->own()[at];
+    }
+    Node node = *like;
+    node.path = prim_;
+    return node;
+  }
+  Node front() const { return (*this)[0]; }
+  Iterator begin() const { return {this, 0}; }
+  Iterator end() const { return {this, size()}; }
+
+ private:
+  const LikeOrMany<Node>* kept_;
+  Path prim_;
+};
+
+/// The opinions of an index, for as long as this and it are there.
+class Opinions {
+ public:
+  explicit Opinions(std::span<const Opinion> many) : size_(many.size()), many_(many.data()) {}
+  explicit Opinions(const Opinion& one) : size_(1), one_(one) {}
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const Opinion* data() const& { return many_ == nullptr ? &one_ : many_; }
+  const Opinion* begin() const& { return data(); }
+  const Opinion* end() const& { return data() + size_; }
+  const Opinion& operator[](std::size_t at) const& { return data()[at]; }
+  const Opinion& front() const& { return data()[0]; }
+  // What is about to go gives copies.
+  Opinion operator[](std::size_t at) const&& { return data()[at]; }
+  Opinion front() const&& { return data()[0]; }
+  const Opinion* data() const&& = delete;
+  const Opinion* begin() const&& = delete;
+  const Opinion* end() const&& = delete;
+
+ private:
+  std::size_t size_;
+  const Opinion* many_ = nullptr;
+  Opinion one_;  // where there are not many
 };
 
 /// Names in order, each once. Those that one spec lists are shared with it and stay as they are
@@ -115,20 +184,35 @@ struct IndexExtras {
 /// without arcs in one layer lies in one piece of memory.
 struct PrimIndex {
   Path path;
-  LikeOrMany<Node> nodes;       ///< strongest first; node 0 is the root
-  OneOrMany<Opinion> opinions;  ///< prim specs, strongest first
-  NameList child_names;         ///< composed, ordered, prohibited names removed
-  NameList property_names;      ///< authored ones; weakest specs first, propertyOrder not applied
+  LikeOrMany<Node> kept_nodes;        ///< see nodes()
+  LikeOrMany<Opinion> kept_opinions;  ///< see opinions()
+  NameList child_names;               ///< composed, ordered, prohibited names removed
+  NameList property_names;  ///< authored ones; weakest specs first, propertyOrder not applied
   std::unique_ptr<IndexExtras> own_extras;  ///< where there are any
+  std::uint32_t only_number = 0;            ///< Opinion::number of the only opinion
   std::uint32_t name_marks = 0;             ///< a bit for each of property_names, which many share
-  bool has_payloads = false;                ///< some payload arc is authored
-  bool payload_loaded = false;              ///< and included under the load rules
-  bool instanceable = false;                ///< an instance: some arc, and instanceable = true
+  bool has_payloads : 1 = false;            ///< some payload arc is authored
+  bool payload_loaded : 1 = false;          ///< and included under the load rules
+  bool instanceable : 1 = false;            ///< an instance: some arc, and instanceable = true
 
-  void add_opinion(std::uint32_t id, const Node& node, const StackedLayer& stacked,
-                   std::uint32_t number) {
-    opinions.push_back({stacked.layer.get(), &stacked.layer->numbered_spec(number), node.path, id,
-                        number, node.map_to_root->offset() * stacked.offset});
+  /// Strongest first; node 0 is the root, whose path is that of the prim.
+  Nodes nodes() const { return {kept_nodes, path}; }
+  /// Prim specs, strongest first.
+  Opinions opinions() const {
+    const Opinion* const like = kept_opinions.like();
+    return like == nullptr ? Opinions(kept_opinions.own()) : Opinions(only_opinion(*like));
+  }
+  /// Where there is one, it is `like` but for its spec and its place, see MapPool::like.
+  void set_opinions(std::span<const Opinion> found, const Opinion* like) {
+    if (found.size() == 1) {
+      kept_opinions.be_like(*like);
+      only_number = found.front().number;
+    } else {
+      kept_opinions.assign(found);
+    }
+  }
+  void copy_opinions(const PrimIndex& other) {
+    set_opinions(other.opinions(), other.kept_opinions.like());
   }
 
   const IndexExtras& extras() const {
@@ -160,8 +244,8 @@ struct PrimIndex {
   bool may_have_property(Token name) const {
     return (name_marks & mark_of(name)) != 0 && (!names_are_few() || has_property(name));
   }
-  /// Calls `visit(opinion, entry)` for each opinion that has the property, strongest first, with
-  /// the layer's entry of it, until it returns true.
+  /// Calls `visit(opinion)` for each opinion on the property, strongest first, until it returns
+  /// true. Its path and spec are those of the property, all else is as of that on the prim.
   template <class Visit>
   void visit_property(Token name, Visit visit) const {
     if ((name_marks & mark_of(name)) == 0) {
@@ -172,20 +256,19 @@ struct PrimIndex {
       if (listed == property_names.end()) {
         return;
       }
-      if (opinions.size() == 1) {
-        const Opinion& only = opinions.front();
-        const auto* const guess = only.layer->guess_property(
-            only.number, static_cast<std::size_t>(listed - property_names.begin()),
-            only.path.property(name));
+      if (const Opinion* const like = kept_opinions.like()) {
+        const auto* const guess = like->layer->guess_property(
+            only_number, static_cast<std::size_t>(listed - property_names.begin()),
+            only_path(*like).property(name));
         if (guess != nullptr) {
-          visit(only, *guess);
+          visit(on_property(*like, *guess));
           return;
         }
       }
     }
-    for (const Opinion& opinion : opinions) {
+    for (const Opinion& opinion : opinions()) {
       const auto* const entry = opinion.layer->find_property(*opinion.spec, opinion.path, name);
-      if (entry != nullptr && visit(opinion, *entry)) {
+      if (entry != nullptr && visit(on_property(opinion, *entry))) {
         return;
       }
     }
@@ -195,11 +278,29 @@ struct PrimIndex {
 
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
-    return nodes[node].map_to_root->map_source_to_target(path_in_node.strip_variants());
+    return nodes()[node].map_to_root->map_source_to_target(path_in_node.strip_variants());
   }
   /// Stage time of a time in the node's layer stack (its root layer).
   const layer::LayerOffset& node_offset(std::uint32_t node) const {
-    return nodes[node].map_to_root->offset();
+    return nodes()[node].map_to_root->offset();
+  }
+
+ private:
+  Path only_path(const Opinion& like) const {
+    return kept_nodes.like() != nullptr ? path : kept_nodes.own()[like.node].path;
+  }
+  Opinion only_opinion(const Opinion& like) const {
+    Opinion only = like;
+    only.spec = &like.layer->numbered_spec(only_number);
+    only.path = only_path(like);
+    only.number = only_number;
+    return only;
+  }
+  static Opinion on_property(const Opinion& opinion, const layer::Layer::Entry& property) {
+    Opinion result = opinion;
+    result.spec = &property.spec;
+    result.path = property.path;
+    return result;
   }
 };
 

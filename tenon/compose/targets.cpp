@@ -46,11 +46,11 @@ Path map_with_targets(const MapFunction& map, Path path) {
 
 /// The path of a node, or of its parent, where the arc was introduced.
 Path climb_to_introduction(const PrimIndex& index, std::uint32_t node, Path path) {
-  const std::uint32_t parent = index.nodes[node].parent;
+  const std::uint32_t parent = index.nodes()[node].parent;
   if (parent == kNoNode) {
     return Path::absolute_root();
   }
-  int steps = namespace_depth_of(index.nodes[parent].path) - index.nodes[node].namespace_depth;
+  int steps = namespace_depth_of(index.nodes()[parent].path) - index.nodes()[node].namespace_depth;
   for (; steps > 0 && !path.empty(); --steps) {
     while (path.is_variant_selection()) {
       path = path.parent();
@@ -141,7 +141,7 @@ class TargetCombiner {
 
   Path deleted_target(Path path, const PropertyOpinion& opinion) {
     const Path target =
-        map_with_targets(*index_.nodes[opinion.node].map_to_root, absolute(path, opinion));
+        map_with_targets(*index_.nodes()[opinion.node].map_to_root, absolute(path, opinion));
     if (!target.empty()) {
       list_.deleted.push_back(target);
       std::erase_if(errors_, [&](const Found& found) { return found.target == target; });
@@ -151,11 +151,11 @@ class TargetCombiner {
 
   Path target_of(Path path, const PropertyOpinion& opinion) {
     const Path in_node = absolute(path, opinion);
-    const Path target = map_with_targets(*index_.nodes[opinion.node].map_to_root, in_node);
+    const Path target = map_with_targets(*index_.nodes()[opinion.node].map_to_root, in_node);
     if (target.empty() || (cache_ == nullptr && relocated_from_instance(in_node, opinion))) {
-      const ArcKind arc = index_.nodes[opinion.node].arc;
-      const std::uint32_t parent = index_.nodes[opinion.node].parent;
-      const Path introduced = parent == kNoNode ? Path() : index_.nodes[parent].path;
+      const ArcKind arc = index_.nodes()[opinion.node].arc;
+      const std::uint32_t parent = index_.nodes()[opinion.node].parent;
+      const Path introduced = parent == kNoNode ? Path() : index_.nodes()[parent].path;
       const Path introduced_at = climb_to_introduction(index_, opinion.node, introduced);
       report(error_class::kInvalidExternalTargetPath, opinion, path, {},
              quoted(in_node) + " is outside of what the " + std::string(arc_name(arc)) + " of " +
@@ -174,7 +174,7 @@ class TargetCombiner {
 
   /// An opinion in a class may not name what uses the class: the way back would not be unique.
   bool targets_instance_of_class(Path in_node, Path target, const PropertyOpinion& opinion) {
-    const Node& node = index_.nodes[opinion.node];
+    const Node& node = index_.nodes()[opinion.node];
     if (node.arc != ArcKind::Inherit) {
       return false;
     }
@@ -183,7 +183,7 @@ class TargetCombiner {
       return false;
     }
     const PrimIndex& there = cache_->index(target.prim());
-    return std::any_of(there.nodes.begin(), there.nodes.end(), [&](const Node& other) {
+    return std::any_of(there.nodes().begin(), there.nodes().end(), [&](const Node& other) {
       return other.arc == ArcKind::Inherit && other.layer_stack == node.layer_stack &&
              other.path.has_prefix(the_class);
     });
@@ -191,11 +191,11 @@ class TargetCombiner {
 
   /// What lies in the prim that uses the class, before relocates, has no way back into the class.
   bool relocated_from_instance(Path in_node, const PropertyOpinion& opinion) const {
-    const Node& node = index_.nodes[opinion.node];
+    const Node& node = index_.nodes()[opinion.node];
     if (node.arc != ArcKind::Inherit || !node.layer_stack->has_relocates()) {
       return false;
     }
-    const Path user = climb_to_introduction(index_, opinion.node, index_.nodes[node.parent].path);
+    const Path user = climb_to_introduction(index_, opinion.node, index_.nodes()[node.parent].path);
     for (Path at = in_node; !at.empty(); at = at.parent()) {
       if (const Path* source = node.layer_stack->relocation_source(at)) {
         return source->has_prefix(user);
@@ -226,10 +226,10 @@ class TargetCombiner {
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors) {
   std::vector<PropertyOpinion> found;
-  index.visit_property(name, [&](const Opinion& opinion, const layer::Layer::Entry& entry) {
-    const auto& [path, spec] = entry;
-    if (found.empty() || found.front().spec->kind == spec.kind) {
-      found.push_back({opinion.layer, &spec, path, opinion.node});
+  index.visit_property(name, [&](const Opinion& opinion) {
+    const Path path = opinion.path;
+    if (found.empty() || found.front().spec->kind == opinion.spec->kind) {
+      found.push_back({opinion.layer, opinion.spec, path, opinion.node});
     } else if (errors != nullptr) {
       errors->add(composition_error(error_class::kInconsistentPropertyType, Severity::Error,
                                     {opinion.layer, path, index.path},
@@ -259,7 +259,7 @@ TargetOrigin origin_of_target(const PrimIndex& index, Token property, Path targe
     if (op == nullptr) {
       continue;
     }
-    const MapFunction& map = *index.nodes[opinion.node].map_to_root;
+    const MapFunction& map = *index.nodes()[opinion.node].map_to_root;
     for (const auto* items : {&op->explicit_items, &op->prepended, &op->appended, &op->added}) {
       for (const Path item : *items) {
         if (map_with_targets(map, item.absolute(opinion.path.prim())) == target) {

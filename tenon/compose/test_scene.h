@@ -62,7 +62,7 @@ class TestScene {
   // "layer path" of each spec, strongest first.
   std::string specs(const char* path) {
     std::string text;
-    for (const Opinion& opinion : at(path).opinions) {
+    for (const Opinion& opinion : at(path).opinions()) {
       text += (text.empty() ? "" : ", ") + opinion.layer->identifier() + opinion.path.str();
     }
     return text;

@@ -51,11 +51,12 @@ std::vector<Token> sorted(std::vector<Token> names) {
 bool same_composition(const PrimData& a, const PrimData& b) {
   const compose::PrimIndex& x = *a.index;
   const compose::PrimIndex& y = *b.index;
-  return a.type_name == b.type_name && a.specifier == b.specifier && a.active == b.active &&
+  const compose::Nodes a_nodes = x.nodes();
+  const compose::Nodes b_nodes = y.nodes();
+  return a.type_name() == b.type_name() && a.specifier == b.specifier && a.active == b.active &&
          a.loaded == b.loaded && x.extras().instance_key == y.extras().instance_key &&
-         std::equal(x.nodes.begin(), x.nodes.end(), y.nodes.begin(), y.nodes.end(), same_node) &&
-         std::equal(x.opinions.begin(), x.opinions.end(), y.opinions.begin(), y.opinions.end(),
-                    same_opinion) &&
+         std::equal(a_nodes.begin(), a_nodes.end(), b_nodes.begin(), b_nodes.end(), same_node) &&
+         std::ranges::equal(x.opinions(), y.opinions(), same_opinion) &&
          a.definition->applied() == b.definition->applied();
 }
 
@@ -76,11 +77,11 @@ class Comparison {
   ChangeNotice run(const std::vector<LayerChange>& changes) {
     read_changes(changes);
     for (const PrimData& prim : after_.prims) {
-      compare(before_.by_path, prim);
+      compare(before_, prim);
     }
     for (const PrimData& prim : before_.prims) {
-      if (prim_like(after_.by_path, prim) == nullptr) {
-        report(resynced_, prim, {});
+      if (prim_like(after_, prim) == nullptr) {
+        report(resynced_, before_, prim, {});
       }
     }
     return result();
@@ -90,7 +91,7 @@ class Comparison {
   void add_instances(const StageData& stage) {
     for (const PrimData& prim : stage.prims) {
       if (prim.is_instance() && !prim.in_prototype) {
-        instances_[prim.prototype].push_back(prim.path);
+        instances_[prim.prototype()].push_back(prim.path);
       }
     }
   }
@@ -130,24 +131,24 @@ class Comparison {
   }
 
   /// The prim at the same path; prims of prototypes are told by the instance they were made from.
-  static const PrimData* prim_like(const PathTable<PrimData*>& others, const PrimData& prim) {
-    PrimData* const* const found = others.find(prim.path);
-    return found == nullptr || (*found)->source_path != prim.source_path ? nullptr : *found;
+  static const PrimData* prim_like(const StageData& others, const PrimData& prim) {
+    const PrimData* const found = others.record(prim.path);
+    return found == nullptr || found->source_path() != prim.source_path() ? nullptr : found;
   }
 
-  void compare(const PathTable<PrimData*>& others, const PrimData& prim) {
+  void compare(const StageData& others, const PrimData& prim) {
     const PrimData* old = prim_like(others, prim);
     if (old == nullptr || !same_composition(*old, prim) || is_reordered(*old, prim)) {
-      report(resynced_, prim, {});
+      report(resynced_, after_, prim, {});
       return;
     }
-    for (const compose::Opinion& opinion : prim.index->opinions) {
+    for (const compose::Opinion& opinion : prim.index->opinions()) {
       const auto it = news_.find({opinion.layer->identifier(), opinion.path});
       if (it == news_.end()) {
         continue;
       }
       if (it->second.metadata) {
-        report(info_, prim, {});
+        report(info_, after_, prim, {});
       }
       for (const Token name : it->second.properties) {
         report_property(*old, prim, name);
@@ -161,11 +162,12 @@ class Comparison {
       return std::find(names.begin(), names.end(), name) != names.end() ||
              where.definition->find(name) != nullptr;
     };
-    report(has(old) == has(prim) ? info_ : resynced_, prim, name);
+    report(has(old) == has(prim) ? info_ : resynced_, after_, prim, name);
   }
 
   /// Enters a prim or its property; one in a prototype under each instance.
-  void report(std::set<Path>& paths, const PrimData& prim, Token property) const {
+  void report(std::set<Path>& paths, const StageData& stage, const PrimData& prim,
+              Token property) const {
     const auto enter = [&](Path path) {
       paths.insert(property.empty() ? path : path.property(property));
     };
@@ -175,7 +177,7 @@ class Comparison {
     }
     const PrimData* root = &prim;
     while (!root->is_prototype_root) {
-      root = root->parent;
+      root = stage.numbered(root->parent);
     }
     const auto instances = instances_.find(root);
     if (instances != instances_.end()) {

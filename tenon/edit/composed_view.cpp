@@ -58,7 +58,7 @@ FoundProperty ComposedView::property(const FoundPrim& prim, Token name) const {
     }
     return {SpecKind::Attribute, declared->type_name, declared->variability, false};
   }
-  for (const compose::Opinion& opinion : prim.index->opinions) {
+  for (const compose::Opinion& opinion : prim.index->opinions()) {
     if (const layer::Spec* spec = opinion.layer->find(opinion.path.property(name))) {
       return {spec->kind, spec->get_or(fields::typeName, Token()),
               spec->get_or(fields::variability, spec->kind == SpecKind::Relationship

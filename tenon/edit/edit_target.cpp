@@ -69,7 +69,7 @@ EditTarget variant_target(std::string layer, Path variant_path) {
 
 EditTarget node_target(const compose::PrimIndex& index, std::uint32_t node,
                        const std::string& layer) {
-  const compose::Node& at = index.nodes[node];
+  const compose::Node& at = index.nodes()[node];
   MapFunction map = *at.map_to_root;
   if (at.path.has_variants()) {
     map = map.compose(variant_map(at.path));

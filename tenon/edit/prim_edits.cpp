@@ -35,7 +35,7 @@ Error hidden(Path prim) {
 }
 
 Result<void> check_comes_over_no_arc(const FoundPrim& found, Path prim) {
-  for (const compose::Node& node : found.index->nodes) {
+  for (const compose::Node& node : found.index->nodes()) {
     if (node.due_to_ancestor && node.has_opinions()) {
       return Error(ErrorCode::Invalid,
                    "<" + prim.str() + "> comes over an arc of a prim above it, with <" +

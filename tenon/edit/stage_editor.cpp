@@ -157,8 +157,8 @@ Result<EditTarget> StageEditor::variant_target(Path prim, const std::string& set
 
 Result<EditTarget> StageEditor::arc_target(Path prim, const std::string& identifier) {
   TENON_TRY(const FoundPrim found, find_prim(prim));
-  for (std::uint32_t id = 0; id < found.index->nodes.size(); ++id) {
-    const compose::Node& node = found.index->nodes[id];
+  for (std::uint32_t id = 0; id < found.index->nodes().size(); ++id) {
+    const compose::Node& node = found.index->nodes()[id];
     for (const compose::StackedLayer& stacked : node.layer_stack->layers) {
       if (id != 0 && node.can_contribute() && stacked.layer->identifier() == identifier) {
         return node_target(*found.index, id, identifier);

@@ -22,12 +22,6 @@ Layer& Layer::operator=(const Layer& other) = default;
 Layer& Layer::operator=(Layer&& other) noexcept = default;
 Layer::~Layer() = default;
 
-/// The number of the entry of a path that is in the table; 0 where there is none.
-std::uint32_t Layer::tabled(Path path) const {
-  const std::uint32_t* const entry = table_.find(path);
-  return entry == nullptr ? 0 : *entry;
-}
-
 /// The entry of this number; null for 0.
 const Layer::Entry* Layer::numbered(std::uint32_t entry) const {
   return entry == 0 ? nullptr : &entries_[entry - 1];
@@ -145,9 +139,6 @@ void Layer::erase(Path path) {
   if (!path.is_direct_property()) {
     end_run(path);
   }
-  if (std::uint32_t* const in_table = table_.find(path)) {
-    *in_table = 0;
-  }
   const_cast<Entry&>(*entry) = {};
   ++erased_;
 }
@@ -168,11 +159,11 @@ void Layer::end_run(Path owner) {
 }
 
 void Layer::enter(Path path, std::size_t entry) {
-  table_[path] = static_cast<std::uint32_t>(entry);
+  table_.put(path, static_cast<std::uint32_t>(entry), path_of());
   has_strays_ = has_strays_ || path.is_direct_property();
 }
 
-void Layer::reserve(std::size_t spec_count) { table_.reserve(spec_count); }
+void Layer::reserve(std::size_t spec_count) { table_.reserve(spec_count, path_of()); }
 
 void Layer::take_missing(Layer&& other) {
   may_lack_text_ = may_lack_text_ || other.may_lack_text_;

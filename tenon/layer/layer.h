@@ -9,7 +9,7 @@
 
 #include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
-#include "tenon/base/paths/path_table.h"
+#include "tenon/base/paths/path_numbers.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/spec.h"
@@ -55,6 +55,7 @@ class Layer {
   /// is none. It stays while nothing is erased.
   std::uint32_t number_of(Path path) const { return tabled(path); }
   const Spec& numbered_spec(std::uint32_t number) const { return entries_[number - 1].spec; }
+  Spec& numbered_spec(std::uint32_t number) { return entries_[number - 1].spec; }
   /// The property at `path` when its spec is in the place that it most often has: the one that the
   /// list of its owner, numbered `owner`, gives it, behind the owner. Null says nothing.
   const Entry* guess_property(std::uint32_t owner, std::size_t listed_at, Path path) const {
@@ -96,14 +97,18 @@ class Layer {
   const Entry* property_at(Path path, std::uint32_t owner) const;
   const Entry* in_run(Path property, std::size_t first) const;
   const Entry* numbered(std::uint32_t entry) const;
-  std::uint32_t tabled(Path path) const;
+  auto path_of() const {
+    return [this](std::uint32_t number) { return entries_[number - 1].path; };
+  }
+  /// The number of the entry of a path that is in the table; 0 where there is none.
+  std::uint32_t tabled(Path path) const { return table_.find(path, path_of()); }
   Entry& add(Path path, bool& made);
   void enter(Path path, std::size_t entry);
   void end_run(Path owner);
 
   std::string identifier_;
-  StableList<Entry> entries_;       // erased entries keep an empty path
-  PathTable<std::uint32_t> table_;  // numbers of entries, from 1 on, that are in no run
+  StableList<Entry> entries_;  // erased entries keep an empty path
+  PathNumbers table_;          // of entries that are in no run
   std::size_t erased_ = 0;
   Path run_owner_;               // whose properties, made next, are its run
   std::uint32_t run_entry_ = 0;  // its entry, from 1 on

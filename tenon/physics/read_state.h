@@ -117,8 +117,8 @@ struct ReadState {
 
  private:
   std::uint32_t object_at(Path path, const std::vector<std::uint32_t>& object_of_prim) const {
-    const std::uint32_t* const found = walk.index_of.find(path);
-    return found == nullptr ? kNone : object_of_prim[*found];
+    const std::uint32_t found = walk.index_of(path);
+    return found == kNone ? kNone : object_of_prim[found];
   }
 };
 

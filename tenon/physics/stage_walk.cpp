@@ -341,10 +341,8 @@ class Walker {
     if (roles.has(Api::ArticulationRoot)) {
       state.articulation_root = index;
     }
-    if (walk_.index_of.find(found.path) == nullptr) {
-      walk_.index_of[found.path] = index;
-    }
     walk_.prims.emplace_back() = found;
+    walk_.number_of.find_or_put(found.path, index + 1, walk_.path_of());
   }
 
   bool is_enabled_body(const stage::Prim& prim, const Roles& roles) const {

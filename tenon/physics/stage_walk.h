@@ -9,7 +9,7 @@
 
 #include "tenon/base/containers/stable_list.h"
 #include "tenon/base/path.h"
-#include "tenon/base/paths/path_table.h"
+#include "tenon/base/paths/path_numbers.h"
 #include "tenon/math/matrix.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/point_instancers.h"
@@ -57,15 +57,20 @@ struct PhysicsPrim {
 struct Walk {
   StableList<PhysicsPrim> prims;
   std::vector<std::uint32_t> by_path;  ///< all of `prims` in the order of their paths
-  PathTable<std::uint32_t> index_of;   ///< by path
+  PathNumbers number_of;               ///< of `prims`, from 1 on, by path
   std::vector<PointInstance> instances;
   /// Prims of a vendor's type or with a vendor's API, also those that mean nothing else to physics.
   /// A prototype of a point instancer stands here for each instance.
   std::vector<stage::Prim> vendor_prims;
 
+  auto path_of() const {
+    return [this](std::uint32_t number) { return prims[number - 1].path; };
+  }
+  /// Into `prims`, or kNone.
+  std::uint32_t index_of(Path path) const { return number_of.find(path, path_of()) - 1; }
   const PhysicsPrim* find(Path path) const {
-    const std::uint32_t* const found = index_of.find(path);
-    return found == nullptr ? nullptr : &prims[*found];
+    const std::uint32_t index = index_of(path);
+    return index == kNone ? nullptr : &prims[index];
   }
   /// What `target` means to a prim: inside an instance of a point instancer, the prim of the same
   /// instance where it lies in the prototype.

@@ -102,7 +102,7 @@ ValueSource Attribute::value_source(Time time) const {
 }
 
 bool Attribute::has_authored_value() const {
-  if (prim_ == nullptr || (prim_->clips == nullptr && !prim_->index->may_have_property(name_))) {
+  if (prim_ == nullptr || (prim_->clips() == nullptr && !prim_->index->may_have_property(name_))) {
     return false;
   }
   const ValueSource source = resolve_value(*prim_, name_, Asked::AnyTime).source;

@@ -70,8 +70,9 @@ namespace {
 layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
   const compose::PrimIndex& index = *place.prim.index;
   layer::AssetPath result = asset;
-  if (compose::is_variable_expression(asset.authored) && place.opinion.node < index.nodes.size()) {
-    const compose::LayerStack& stack = *index.nodes[place.opinion.node].layer_stack;
+  if (compose::is_variable_expression(asset.authored) &&
+      place.opinion.node < index.nodes().size()) {
+    const compose::LayerStack& stack = *index.nodes()[place.opinion.node].layer_stack;
     result.evaluated = compose::evaluate_text(asset.authored, stack.expression_variables).text;
   }
   const std::string& path = result.evaluated.empty() ? result.authored : result.evaluated;
@@ -86,10 +87,10 @@ layer::AssetPath resolved(const Place& place, const layer::AssetPath& asset) {
 
 layer::PathExpression mapped(const Place& place, const layer::PathExpression& expression) {
   const auto tree = layer::PathExpressionTree::parse(expression.text);
-  if (!tree || place.opinion.node >= place.prim.index->nodes.size()) {
+  if (!tree || place.opinion.node >= place.prim.index->nodes().size()) {
     return {};
   }
-  const compose::MapFunction& map = *place.prim.index->nodes[place.opinion.node].map_to_root;
+  const compose::MapFunction& map = *place.prim.index->nodes()[place.opinion.node].map_to_root;
   if (map.is_identity_of_paths()) {
     return expression;
   }

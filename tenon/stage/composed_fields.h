@@ -22,13 +22,7 @@ std::vector<compose::Opinion> property_opinions(const PrimData& prim, Token name
 /// Calls `visit(opinion)` for each of them until it returns true.
 template <class Visit>
 void visit_property_opinions(const PrimData& prim, Token name, Visit visit) {
-  prim.index->visit_property(
-      name, [&](const compose::Opinion& opinion, const layer::Layer::Entry& entry) {
-        compose::Opinion found = opinion;
-        found.path = entry.path;
-        found.spec = &entry.spec;
-        return visit(found);
-      });
+  prim.index->visit_property(name, visit);
 }
 
 /// Resolved: as authored, with what they resolve to. Anchored: rewritten so that they mean the same

@@ -14,8 +14,9 @@ namespace {
 
 /// The node, or one above it, is there because the prim itself inherits a class.
 bool is_inherited(const compose::PrimIndex& index, std::uint32_t node) {
-  for (; node != compose::kNoNode; node = index.nodes[node].parent) {
-    if (index.nodes[node].arc == compose::ArcKind::Inherit && !index.nodes[node].due_to_ancestor) {
+  for (; node != compose::kNoNode; node = index.nodes()[node].parent) {
+    if (index.nodes()[node].arc == compose::ArcKind::Inherit &&
+        !index.nodes()[node].due_to_ancestor) {
       return true;
     }
   }
@@ -27,7 +28,7 @@ bool is_inherited(const compose::PrimIndex& index, std::uint32_t node) {
 /// What inherits a class is no class: `class` of an inherited one is weaker than any `def`.
 Specifier composed_specifier(const compose::PrimIndex& index) {
   Specifier result = Specifier::Over;
-  for (const compose::Opinion& opinion : index.opinions) {
+  for (const compose::Opinion& opinion : index.opinions()) {
     const auto* specifier = opinion.spec->get<Specifier>(fields::specifier);
     if (specifier == nullptr || *specifier == Specifier::Over) {
       continue;
@@ -42,7 +43,7 @@ Specifier composed_specifier(const compose::PrimIndex& index) {
 
 Token composed_type_name(const compose::PrimIndex& index) {
   static const Token any_type{"__AnyType__"};
-  for (const compose::Opinion& opinion : index.opinions) {
+  for (const compose::Opinion& opinion : index.opinions()) {
     const auto* name = opinion.spec->get<Token>(fields::typeName);
     if (name != nullptr && !name->empty() && *name != any_type) {
       return *name;
@@ -52,9 +53,9 @@ Token composed_type_name(const compose::PrimIndex& index) {
 }
 
 std::vector<Token> composed_api_schemas(const compose::PrimIndex& index) {
-  for (const compose::Opinion& opinion : index.opinions) {
+  for (const compose::Opinion& opinion : index.opinions()) {
     if (opinion.spec->has(fields::apiSchemas)) {
-      return compose_list<Token>(index.opinions, fields::apiSchemas);
+      return compose_list<Token>(index.opinions(), fields::apiSchemas);
     }
   }
   return {};

@@ -13,7 +13,7 @@ namespace tenon::stage {
 /// The contents of the strongest opinion on a field that is a T; nullptr when there is none.
 template <class T>
 const T* strongest_opinion(const compose::PrimIndex& index, Token field) {
-  for (const compose::Opinion& opinion : index.opinions) {
+  for (const compose::Opinion& opinion : index.opinions()) {
     if (const T* value = opinion.spec->get<T>(field)) {
       return value;
     }

@@ -11,14 +11,14 @@ namespace tenon::stage {
 namespace {
 
 /// The next prim of the tree below `root`, depth first; nullptr behind the last one.
-PrimData* next_below(PrimData* prim, const PrimData* root) {
-  if (prim->first_child != nullptr) {
-    return prim->first_child;
+PrimData* next_below(StageData& data, PrimData* prim, const PrimData* root) {
+  if (prim->first_child != 0) {
+    return data.numbered(prim->first_child);
   }
-  while (prim != root && prim->next_sibling == nullptr) {
-    prim = prim->parent;
+  while (prim != root && prim->next_sibling == 0) {
+    prim = data.numbered(prim->parent);
   }
-  return prim == root ? nullptr : prim->next_sibling;
+  return prim == root ? nullptr : data.numbered(prim->next_sibling);
 }
 
 class Counter {
@@ -50,9 +50,9 @@ class Counter {
         continue;
       }
       const bool is_new = entered_.insert(top).second;
-      for (PrimData* prim = top; is_new && prim != nullptr; prim = next_below(prim, top)) {
-        if (prim->is_instance() && !entered_.contains(prim->prototype)) {
-          open.push_back(const_cast<PrimData*>(prim->prototype));
+      for (PrimData* prim = top; is_new && prim != nullptr; prim = next_below(data_, prim, top)) {
+        if (prim->is_instance() && !entered_.contains(prim->prototype())) {
+          open.push_back(const_cast<PrimData*>(prim->prototype()));
         }
       }
       if (open.back() == top) {
@@ -64,12 +64,12 @@ class Counter {
 
   std::size_t count(PrimData* root) {
     std::size_t sum = 0;
-    for (PrimData* prim = root; prim != nullptr; prim = next_below(prim, root)) {
+    for (PrimData* prim = root; prim != nullptr; prim = next_below(data_, prim, root)) {
       ++sum;
       if (!prim->is_instance()) {
         continue;
       }
-      const auto below = counts_.find(prim->prototype);
+      const auto below = counts_.find(prim->prototype());
       if (below == counts_.end() || sum > most_ || below->second > most_ - sum) {
         cut(*prim);
       } else {
@@ -80,7 +80,7 @@ class Counter {
   }
 
   void cut(PrimData& instance) {
-    instance.prototype = nullptr;
+    instance.extras = &data_.extras.emplace_back(PrimExtras{nullptr, instance.clips(), Path()});
     first_ = first_ == nullptr ? &instance : first_;
     ++cuts_;
   }
@@ -89,11 +89,11 @@ class Counter {
     Diagnostic diagnostic;
     diagnostic.rule = "stage.too-many-prims";
     diagnostic.message = "instances within instances make more than " + std::to_string(most_) +
-                         " prims; what is below <" + first_->source_path.str() + ">" +
+                         " prims; what is below <" + first_->source_path().str() + ">" +
                          (cuts_ > 1 ? " and " + std::to_string(cuts_ - 1) + " more" : "") +
                          " is left out";
     diagnostic.file = data_.cache->layer_stack()->identifier();
-    diagnostic.prim = first_->source_path.str();
+    diagnostic.prim = first_->source_path().str();
     diagnostic.fix = "reduce the references that multiply with each other";
     data_.diagnostics.add(std::move(diagnostic));
   }

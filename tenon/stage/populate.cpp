@@ -33,28 +33,28 @@ class Populator {
       : data_(data), may_build_ahead_(data.options.mask.empty() && usable_processors() > 1) {}
 
   void run() {
-    data_.root = &data_.prims.emplace_back();
-    data_.root->path = Path::absolute_root();
-    data_.root->source_path = data_.root->path;
+    const std::uint32_t root = add(Path::absolute_root());
+    data_.root = data_.numbered(root);
     data_.root->index = &data_.cache->index(data_.root->path);
     data_.root->specifier = Specifier::Def;
     data_.root->definition = &data_.definitions.get(Token(), {});
-    enter(*data_.root);
     add_findings(data_.root->index->extras().errors);
-    pending_.push_back(data_.root);
+    pending_.push_back(root);
     while (!pending_.empty()) {
       build_ahead();
-      PrimData* parent = pending_.back();
+      const std::uint32_t parent = pending_.back();
       pending_.pop_back();
-      add_children(*parent);
+      add_children(parent);
     }
   }
 
  private:
-  /// The first prim of a path counts.
-  void enter(PrimData& prim) {
-    PrimData*& known = data_.by_path[prim.path];
-    known = known == nullptr ? &prim : known;
+  /// A prim behind all others. The first of a path counts.
+  std::uint32_t add(Path path) {
+    data_.prims.emplace_back().path = path;
+    const auto number = static_cast<std::uint32_t>(data_.prims.size());
+    data_.by_path.find_or_put(path, number, data_.path_of());
+    return number;
   }
 
   /// Has the indices of all that is still to be walked built on two threads, once it seems to be
@@ -68,7 +68,7 @@ class Populator {
     }
     std::vector<const compose::PrimIndex*> roots;
     for (auto walked = pending_.rbegin(); walked != pending_.rend(); ++walked) {
-      roots.push_back(&data_.cache->index((*walked)->source_path));
+      roots.push_back(&data_.cache->index(data_.numbered(*walked)->source_path()));
     }
     const auto enters = [](const compose::PrimIndex& index) {
       return !index.instanceable && is_active(index);
@@ -77,14 +77,14 @@ class Populator {
     next_ahead_ = 2 * count;
   }
 
-  void add_children(PrimData& parent) {
+  void add_children(std::uint32_t parent_number) {
+    PrimData& parent = *data_.numbered(parent_number);
     const compose::PrimIndex& index =
-        parent.is_prototype_root ? data_.cache->index(parent.source_path) : *parent.index;
-    PrimData** next_place = &parent.first_child;
+        parent.is_prototype_root ? data_.cache->index(parent.source_path()) : *parent.index;
+    std::uint32_t* next_place = &parent.first_child;
     for (const Token name : index.child_names) {
       const Path path = parent.path.child(name);
-      const Path source_path =
-          parent.source_path == parent.path ? path : parent.source_path.child(name);
+      const Path source_path = index.path == parent.path ? path : index.path.child(name);
       if (!is_in_mask(data_.options.mask, source_path)) {
         continue;
       }
@@ -92,19 +92,18 @@ class Populator {
         report_too_many(path);
         break;
       }
-      *next_place = &add_prim(parent, index, path, source_path);
-      next_place = &(*next_place)->next_sibling;
+      *next_place = add_prim(parent_number, index, path);
+      next_place = &data_.numbered(*next_place)->next_sibling;
     }
-    std::vector<PrimData*> next;
-    for (PrimData* child = parent.first_child; child != nullptr; child = child->next_sibling) {
-      if (!child->active) {
-        continue;
+    std::vector<std::uint32_t> next;
+    for (std::uint32_t number = parent.first_child; number != 0;) {
+      PrimData& child = *data_.numbered(number);
+      if (child.active) {
+        next.push_back(child.index->instanceable ? use_prototype(child) : number);
       }
-      PrimData* walked = child->index->instanceable ? use_prototype(*child) : child;
-      if (walked != nullptr) {
-        next.push_back(walked);
-      }
+      number = child.next_sibling;
     }
+    std::erase(next, 0u);
     // Last in, first out: the first child is walked first.
     pending_.insert(pending_.end(), next.rbegin(), next.rend());
   }
@@ -146,31 +145,31 @@ class Populator {
     }
   }
 
-  // The prototype when it is new and must be walked.
-  PrimData* use_prototype(PrimData& instance) {
+  /// The prototype when it is new and must be walked; 0: it is not.
+  std::uint32_t use_prototype(PrimData& instance) {
     Diagnostics known;  // from when the instance was added
     const std::vector<ClipDefinition> clips = own_clip_definitions(data_, *instance.index, known);
     const std::string key = prototype_key(data_, *instance.index, clips);
     const auto [it, inserted] = data_.prototype_of_key.try_emplace(key, nullptr);
+    std::uint32_t number = 0;
     if (inserted) {
-      PrimData& root = data_.prims.emplace_back();
       const std::string name = "__Prototype_" + std::to_string(data_.prototypes.size() + 1);
-      root.path = Path::absolute_root().child(Token(name));
-      root.source_path = source_of(key, instance);
+      number = add(Path::absolute_root().child(Token(name)));
+      PrimData& root = *data_.numbered(number);
       root.index = &empty_index();
       root.definition = &data_.definitions.get(Token(), {});
-      root.parent = data_.root;
+      root.parent = 1;  // the pseudo-root, which comes first
       root.specifier = Specifier::Def;
       root.is_prototype_root = true;
       root.in_prototype = true;
-      root.clips = add_clips(clips, nullptr, instance.path, known);
-      enter(root);
+      root.extras = &data_.extras.emplace_back(PrimExtras{
+          nullptr, add_clips(clips, nullptr, instance.path, known), source_of(key, instance)});
       data_.prototypes.push_back(&root);
       built_ahead_ = false;
       it->second = &root;
     }
-    instance.prototype = it->second;
-    return inserted ? it->second : nullptr;
+    instance.extras = &data_.extras.emplace_back(PrimExtras{it->second, instance.clips(), Path()});
+    return number;
   }
 
   Path source_of(const std::string& key, const PrimData& instance) {
@@ -178,25 +177,32 @@ class Populator {
       sources_ = prototype_sources(data_);
     }
     const auto found = sources_.find(key);
-    return found == sources_.end() ? instance.source_path : found->second;
+    return found == sources_.end() ? instance.source_path() : found->second;
   }
 
-  PrimData& add_prim(PrimData& parent, const compose::PrimIndex& source, Path path,
-                     Path source_path) {
-    PrimData& prim = data_.prims.emplace_back();
-    prim.path = path;
-    prim.source_path = source_path;
+  std::uint32_t add_prim(std::uint32_t parent_number, const compose::PrimIndex& source, Path path) {
+    const std::uint32_t number = add(path);
+    PrimData& prim = *data_.numbered(number);
+    const PrimData& parent = *data_.numbered(parent_number);
     prim.index = &data_.cache->child_index(source, path.name());
-    prim.parent = &parent;
+    prim.parent = parent_number;
     prim.in_prototype = parent.in_prototype;
-    enter(prim);
     add_findings(prim.index->extras().errors);
     set_flags(prim, parent);
-    prim.clips = add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics),
-                           parent.clips, path, data_.diagnostics);
-    prim.type_name = composed_type_name(*prim.index);
-    prim.definition = &data_.definitions.get(prim.type_name, composed_api_schemas(*prim.index));
-    return prim;
+    const ClipSets* const clips =
+        add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics), parent.clips(), path,
+                  data_.diagnostics);
+    prim.extras = clips == nullptr ? nullptr : extras_with(*clips, parent);
+    prim.definition =
+        &data_.definitions.get(composed_type_name(*prim.index), composed_api_schemas(*prim.index));
+    return number;
+  }
+
+  /// Those of the parent where they have nothing else.
+  const PrimExtras* extras_with(const ClipSets& clips, const PrimData& parent) {
+    const bool same =
+        parent.clips() == &clips && !parent.is_instance() && !parent.is_prototype_root;
+    return same ? parent.extras : &data_.extras.emplace_back(PrimExtras{nullptr, &clips, Path()});
   }
 
   const ClipSets* add_clips(const std::vector<ClipDefinition>& definitions,
@@ -234,8 +240,8 @@ class Populator {
   std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
   bool too_many_reported_ = false;
   bool too_many_findings_reported_ = false;
-  std::vector<PrimData*> pending_;
-  bool built_ahead_ = false;  // the indices of all that is below `pending_`
+  std::vector<std::uint32_t> pending_;  // numbers of prims
+  bool built_ahead_ = false;            // the indices of all that is below `pending_`
   std::size_t next_ahead_ = 0;
 };
 

@@ -15,7 +15,7 @@ Path Prim::path() const {
   return proxy_path_.empty() ? data_->path : proxy_path_;
 }
 
-Token Prim::type_name() const { return data_ == nullptr ? Token() : data_->type_name; }
+Token Prim::type_name() const { return data_ == nullptr ? Token() : data_->type_name(); }
 
 layer::Specifier Prim::specifier() const {
   return data_ == nullptr ? layer::Specifier::Over : data_->specifier;
@@ -40,15 +40,15 @@ bool Prim::is_in_prototype() const {
 }
 
 Prim Prim::parent() const {
-  if (data_ == nullptr || data_->parent == nullptr) {
+  if (data_ == nullptr || data_->parent == 0) {
     return {};
   }
   if (proxy_path_.empty()) {
-    return Prim(stage_, data_->parent);
+    return Prim(stage_, stage_->numbered(data_->parent));
   }
   const Path above = proxy_path_.parent();
-  return data_->parent->is_prototype_root ? stage_->find(above)
-                                          : Prim(stage_, data_->parent, above);
+  const PrimData* const parent = stage_->numbered(data_->parent);
+  return parent->is_prototype_root ? stage_->find(above) : Prim(stage_, parent, above);
 }
 
 std::vector<Prim> Prim::children() const {
@@ -56,10 +56,11 @@ std::vector<Prim> Prim::children() const {
   if (data_ == nullptr) {
     return result;
   }
-  const PrimData* source = data_->is_instance() ? data_->prototype : data_;
+  const PrimData* source = data_->is_instance() ? data_->prototype() : data_;
   const bool proxies = is_instance_proxy() || data_->is_instance();
   const Path here = path();
-  for (const PrimData* child = source->first_child; child != nullptr; child = child->next_sibling) {
+  for (const PrimData* child = stage_->numbered(source->first_child); child != nullptr;
+       child = stage_->numbered(child->next_sibling)) {
     result.push_back(Prim(stage_, child, proxies ? here.child(child->path.name()) : Path()));
   }
   return result;
@@ -69,16 +70,16 @@ Prim Prim::child(Token name) const {
   if (data_ == nullptr) {
     return {};
   }
-  const PrimData* source = data_->is_instance() ? data_->prototype : data_;
+  const PrimData* source = data_->is_instance() ? data_->prototype() : data_;
   const bool proxies = is_instance_proxy() || data_->is_instance();
-  PrimData* const* const found = stage_->by_path.find(source->path.child(name));
-  if (found == nullptr || (*found)->is_prototype_root) {
+  const PrimData* const found = stage_->record(source->path.child(name));
+  if (found == nullptr || found->is_prototype_root) {
     return {};
   }
-  return Prim(stage_, *found, proxies ? path().child(name) : Path());
+  return Prim(stage_, found, proxies ? path().child(name) : Path());
 }
 
-Prim Prim::prototype() const { return is_instance() ? Prim(stage_, data_->prototype) : Prim(); }
+Prim Prim::prototype() const { return is_instance() ? Prim(stage_, data_->prototype()) : Prim(); }
 
 Prim Prim::prim_in_prototype() const { return is_instance_proxy() ? Prim(stage_, data_) : Prim(); }
 

@@ -22,7 +22,7 @@ namespace fields = layer::fields;
 void put_in_order(const PrimData& prim, std::vector<Token>& names) {
   std::sort(names.begin(), names.end(),
             [](Token a, Token b) { return dictionary_less(a.view(), b.view()); });
-  for (const compose::Opinion& opinion : prim.index->opinions) {
+  for (const compose::Opinion& opinion : prim.index->opinions()) {
     if (const auto* order = opinion.spec->get<std::vector<Token>>(fields::propertyOrder)) {
       const layer::ItemPositions<Token> positions(names);
       std::vector<Token> ordered;
@@ -40,7 +40,7 @@ void put_in_order(const PrimData& prim, std::vector<Token>& names) {
 
 std::vector<Token> Prim::authored_api_schemas() const {
   return data_ == nullptr ? std::vector<Token>()
-                          : compose_list<Token>(data_->index->opinions, fields::apiSchemas);
+                          : compose_list<Token>(data_->index->opinions(), fields::apiSchemas);
 }
 
 std::vector<Token> Prim::authored_property_names() const {
@@ -103,14 +103,14 @@ layer::Value Prim::metadata(Token field) const {
     return data_->specifier;
   }
   if (field == fields::typeName) {
-    return data_->type_name;
+    return data_->type_name();
   }
-  return compose_field(*stage_, *data_, data_->index->opinions, field);
+  return compose_field(*stage_, *data_, data_->index->opinions(), field);
 }
 
 bool Prim::has_authored_metadata(Token field) const {
   if (data_ != nullptr) {
-    for (const compose::Opinion& opinion : data_->index->opinions) {
+    for (const compose::Opinion& opinion : data_->index->opinions()) {
       if (opinion.spec->has(field)) {
         return true;
       }
@@ -124,7 +124,7 @@ std::map<std::string, layer::Value> Prim::all_authored_metadata() const {
     return {};
   }
   std::map<std::string, layer::Value> result =
-      compose_metadata(*stage_, *data_, data_->index->opinions);
+      compose_metadata(*stage_, *data_, data_->index->opinions());
   for (const Token field : {fields::specifier, fields::typeName}) {
     const auto it = result.find(field.str());
     if (it != result.end()) {
@@ -141,7 +141,7 @@ std::vector<std::string> Prim::variant_set_names() const {
   }
   // List edits combine within a site; sites add to each other, strongest first, those without
   // opinions on the prim included.
-  for (const compose::Node& node : data_->index->nodes) {
+  for (const compose::Node& node : data_->index->nodes()) {
     if (!node.has_specs) {
       continue;
     }
@@ -157,7 +157,7 @@ std::vector<std::string> Prim::variant_set_names() const {
 std::vector<std::string> Prim::variant_names(const std::string& set) const {
   std::set<std::string> names;
   if (data_ != nullptr) {
-    for (const compose::Node& node : data_->index->nodes) {
+    for (const compose::Node& node : data_->index->nodes()) {
       for (const std::string& name : compose::variant_options(*node.layer_stack, node.path, set)) {
         names.insert(name);
       }
@@ -178,7 +178,7 @@ std::string Prim::variant_selection(const std::string& set) const {
 std::vector<SpecSite> Prim::spec_stack() const {
   std::vector<SpecSite> result;
   if (data_ != nullptr) {
-    for (const compose::Opinion& opinion : data_->index->opinions) {
+    for (const compose::Opinion& opinion : data_->index->opinions()) {
       result.push_back({opinion.layer, opinion.path, opinion.spec});
     }
   }
@@ -192,7 +192,7 @@ Diagnostic Prim::located(Severity severity, std::string rule, std::string messag
   diagnostic.rule = std::move(rule);
   diagnostic.message = std::move(message);
   diagnostic.prim = path().str();
-  if (data_ != nullptr && !data_->index->opinions.empty()) {
+  if (data_ != nullptr && !data_->index->opinions().empty()) {
     const std::vector<SpecSite> sites = spec_stack();
     const SpecSite& site = site_that_says(sites, part);
     layer::place_finding(diagnostic, *site.layer, site.path, site.spec, std::move(part));

@@ -26,7 +26,7 @@ Diagnostics property_errors(const Stage& stage) {
   for (const PrimData& prim : stage.data().prims) {
     // One layer alone, without arcs, can be wrong in neither way.
     if (prim.index == nullptr ||
-        (prim.index->opinions.size() < 2 && prim.index->nodes.size() < 2)) {
+        (prim.index->opinions().size() < 2 && prim.index->nodes().size() < 2)) {
       continue;
     }
     for (const Token name : prim.index->property_names) {

@@ -51,7 +51,7 @@ SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_pa
       continue;
     }
     const Path prototype = at.is_instance() ? at.prototype().path() : at.path();
-    map.emplace_back(stage.by_path.at(prototype)->source_path, at.path());
+    map.emplace_back(stage.record(prototype)->source_path(), at.path());
     if (at.is_instance() && !at.is_instance_proxy() && !at.is_in_prototype()) {
       break;  // no instance lies above it
     }
@@ -133,8 +133,8 @@ Diagnostic located_property(const PrimData* prim, Path path, Token name, Diagnos
     return diagnostic;
   }
   std::vector<SpecSite> sites = property_sites(*prim, name);
-  if (sites.empty() && !prim->index->opinions.empty()) {
-    const compose::Opinion& opinion = prim->index->opinions.front();
+  if (sites.empty() && !prim->index->opinions().empty()) {
+    const compose::Opinion& opinion = prim->index->opinions().front();
     sites.push_back({opinion.layer, opinion.path, opinion.spec});
     diagnostic.part = {};
   }

@@ -70,7 +70,7 @@ Prim StageData::find(Path path) const {
   }
   ShortList<Path, 24> below;
   for (Path at = path; !at.empty(); at = at.parent()) {
-    PrimData* const* const found = by_path.find(at);
+    const PrimData* const found = record(at);
     if (found == nullptr) {
       if (!at.is_prim()) {
         return {};
@@ -78,10 +78,10 @@ Prim StageData::find(Path path) const {
       below.push_back(at);
       continue;
     }
-    if (!below.empty() && !(*found)->is_instance()) {
+    if (!below.empty() && !found->is_instance()) {
       return {};
     }
-    Prim prim(this, *found);
+    Prim prim(this, found);
     for (auto step = below.rbegin(); step != below.rend() && prim; ++step) {
       prim = prim.child(step->name());
     }
@@ -221,8 +221,7 @@ const PrimData* record_of(const Stage& stage, Path path) {
     return nullptr;
   }
   const Path own = prim.is_instance_proxy() ? prim.prim_in_prototype().path() : prim.path();
-  PrimData* const* const found = stage.data().by_path.find(own);
-  return found == nullptr ? nullptr : *found;
+  return stage.data().record(own);
 }
 
 }  // namespace tenon::stage

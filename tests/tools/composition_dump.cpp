@@ -115,7 +115,7 @@ std::string layers_of(const compose::LayerStack& stack, const compose::LayerLabe
 std::string facts_of(compose::IndexCache& cache, const compose::PrimIndex& index,
                      const compose::LayerLabel& label) {
   std::string text = dump_nodes(index, label);
-  for (const compose::Opinion& opinion : index.opinions) {
+  for (const compose::Opinion& opinion : index.opinions()) {
     text += "spec " + label(*opinion.layer) + " " + opinion.path.str() + "\n";
   }
   for (const Diagnostic& found : index.extras().errors) {
@@ -179,8 +179,8 @@ std::string work_of_all(compose::IndexCache& cache) {
     const compose::PrimIndex& index = *open.back();
     open.pop_back();
     ++prims;
-    nodes += index.nodes.size();
-    for (const compose::Node& node : index.nodes) {
+    nodes += index.nodes().size();
+    for (const compose::Node& node : index.nodes()) {
       contributing += node.can_contribute() && node.has_specs ? 1 : 0;
     }
     findings += index.extras().errors.size();

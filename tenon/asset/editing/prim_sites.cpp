@@ -30,7 +30,7 @@ class SiteSearch {
     if (!site || site->index == nullptr) {
       return {};
     }
-    for (const compose::Node& node : site->index->nodes) {
+    for (const compose::Node& node : site->index->nodes()) {
       if (!node.due_to_direct_arc && (node.due_to_ancestor || node.arc == compose::ArcKind::Root)) {
         TENON_CHECK(add(stage, node));
       }

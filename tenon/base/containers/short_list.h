@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
-#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -46,7 +45,6 @@ class ShortList {
   const T& operator[](std::size_t at) const { return data()[at]; }
   T& operator[](std::size_t at) { return data()[at]; }
   T& back() { return data()[size_ - 1]; }
-  operator std::span<const T>() const { return {data(), size_}; }
 
   void push_back(T element) {
     if (size_ == capacity_) {

@@ -57,6 +57,19 @@ class StableList {
     }
     return (*this)[size_++];
   }
+  void pop_back() { (*this)[--size_] = T(); }
+
+  /// Takes over what `other` has, which stays where it is. The index of the first of it; between
+  /// that and what was there before may be elements that are as they were made.
+  std::size_t take_rows(StableList&& other) {
+    const std::size_t first = other.empty() ? size_ : rows_.size() * kRow;
+    for (std::unique_ptr<T[]>& row : other.rows_) {
+      rows_.push_back(std::move(row));
+    }
+    size_ = first + std::exchange(other.size_, 0);
+    other.rows_.clear();
+    return first;
+  }
 
  private:
   std::vector<std::unique_ptr<T[]>> rows_;

@@ -60,5 +60,32 @@ TEST(StableList, IsReadRowByRow) {
   }
 }
 
+TEST(StableList, TakesWhatAnotherHas) {
+  StableList<std::string> list;
+  StableList<std::string> other;
+  for (int i = 0; i < 20; ++i) {
+    list.emplace_back() = "own " + std::to_string(i);
+  }
+  for (int i = 0; i < 37; ++i) {
+    other.emplace_back() = std::to_string(i);
+  }
+  const std::string* const place = &other[36];
+  const std::size_t first = list.take_rows(std::move(other));
+  EXPECT_TRUE(other.empty());  // NOLINT(bugprone-use-after-move): that is what is tested
+  EXPECT_EQ(list.size(), first + 37);
+  EXPECT_EQ(&list[first + 36], place);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i], i < 20      ? "own " + std::to_string(i)
+                       : i < first ? ""
+                                   : std::to_string(i - first));
+  }
+  EXPECT_EQ(list.take_rows({}), list.size());
+  list.emplace_back() = "last";
+  EXPECT_EQ(list.back(), "last");
+  list.pop_back();
+  EXPECT_EQ(list.back(), "36");
+  EXPECT_EQ(list.emplace_back(), "");
+}
+
 }  // namespace
 }  // namespace tenon

@@ -39,16 +39,5 @@ TEST(PathTable, AnswersLikeAMap) {
   }
 }
 
-TEST(PathTable, KeepsWhatIsThereWhenRoomIsMade) {
-  PathTable<unsigned> table;
-  table[numbered(0, 0)] = 5;
-  table.reserve(10000);
-  ASSERT_NE(table.find(numbered(0, 0)), nullptr);
-  EXPECT_EQ(*table.find(numbered(0, 0)), 5u);
-  EXPECT_EQ(table.find(numbered(0, 1)), nullptr);
-  EXPECT_EQ(table[numbered(0, 1)], 0u);
-  EXPECT_EQ(table.size(), 2u);
-}
-
 }  // namespace
 }  // namespace tenon

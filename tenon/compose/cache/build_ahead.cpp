@@ -93,12 +93,15 @@ class BatchBuilder {
     const std::size_t work_before = work_.done();
     gave_up_ = false;
     build_child_index(services_, parent, ahead.index);
-    const bool fits = work_.done() - work_before <= std::numeric_limits<std::uint32_t>::max();
+    const std::size_t work = work_.done() - work_before;
+    const std::size_t nodes = node_count_ - nodes_before;
+    const bool fits = work <= std::numeric_limits<std::uint32_t>::max() &&
+                      nodes <= std::numeric_limits<std::uint16_t>::max();
     std::vector<ArcCost> costs = work_.take_costs();
     if (!gave_up_ && fits && node_count_ < known_.options->max_nodes && !work_.exhausted()) {
-      ahead.node_count = static_cast<std::uint32_t>(node_count_ - nodes_before) & 0x7FFFFFFFu;
-      ahead.waits = 1;
-      ahead.work = static_cast<std::uint32_t>(work_.done() - work_before);
+      ahead.node_count = static_cast<std::uint16_t>(nodes);
+      ahead.waits = true;
+      ahead.work = static_cast<std::uint32_t>(work);
       if (!costs.empty()) {
         batch_.costs.emplace(&ahead, std::move(costs));
       }

@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <unordered_map>
 #include <vector>
 
+#include "tenon/base/containers/stable_list.h"
 #include "tenon/compose/indexer.h"
 #include "tenon/compose/node_graph.h"
 
@@ -18,15 +18,16 @@
 namespace tenon::compose {
 
 struct IndexAhead {
-  PrimIndex index;
-  std::uint32_t work = 0;             ///< units that building it took
-  std::uint32_t node_count : 31 = 0;  ///< nodes that building it made
-  std::uint32_t waits : 1 = 0;        ///< it was built ahead and not asked for yet
+  [[no_unique_address]] PrimIndex index;  // the numbers lie in what is left of it
+  bool waits = false;                     ///< it was built ahead and not asked for yet
+  std::uint16_t node_count = 0;           ///< nodes that building it made
+  std::uint32_t work = 0;                 ///< units that building it took
 };
+static_assert(sizeof(IndexAhead) == 64, "many of them are in memory");
 
 /// Indices, each after that of its parent, and what they point into.
 struct IndexBatch {
-  std::deque<IndexAhead> indices;
+  StableList<IndexAhead> indices;
   MapPool maps;
   std::unordered_map<const IndexAhead*, std::vector<ArcCost>> costs;  ///< of work for arcs, if any
   bool complete = true;                                               ///< nothing was left out

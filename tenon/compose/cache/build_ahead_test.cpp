@@ -157,8 +157,8 @@ TEST(BuildAhead, BuildsWhatNeedsNoFurtherLayer) {
   Robot scene;
   EXPECT_TRUE(scene.build_below({"/World/Local", "/World/_class"}));
   const std::size_t opened = scene.opened;
-  EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/b")).opinions.size(), 1u);
-  EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/inherited")).opinions.size(), 1u);
+  EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/b")).opinions().size(), 1u);
+  EXPECT_EQ(scene.cache->index(Path::from("/World/Local/a/inherited")).opinions().size(), 1u);
   EXPECT_EQ(scene.opened, opened);
 }
 
@@ -188,7 +188,7 @@ TEST(BuildAhead, ChangesNoAnswer) {
     Robot scene;
     // In the order of the dump, which decides what is found missing first.
     scene.build_below(roots);
-    EXPECT_EQ(scene.cache->index(Path::from("/World/Robot1/arm")).opinions.size(), 1u);
+    EXPECT_EQ(scene.cache->index(Path::from("/World/Robot1/arm")).opinions().size(), 1u);
     scene.build_below({"/World"});
     EXPECT_EQ(scene.dump(), expected);
   }
@@ -252,7 +252,7 @@ TEST(BuildAhead, SharesWhatEqualReferencesBringIn) {
     EXPECT_TRUE(batch.complete);
     for (const IndexAhead& ahead : batch.indices) {
       fingers += ahead.index.path.name() == "finger" ? 1 : 0;
-      EXPECT_EQ(ahead.index.opinions.size(), cache.index(ahead.index.path).opinions.size());
+      EXPECT_EQ(ahead.index.opinions().size(), cache.index(ahead.index.path).opinions().size());
     }
   }
   EXPECT_EQ(fingers, kRobots);

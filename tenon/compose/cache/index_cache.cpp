@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Indices are made on demand, each after its parent's, and stay in deques so that references to
-// them hold. Two threads may build indices ahead. These count only when they are asked for, in the
-// order of asking, and once a bound of nodes or work may be reached with one, it and all after it
-// are built again. So the same arcs are left out as without building ahead. Layer stacks are shared
-// by root layer and source of expression variables; each asset path is opened once for each anchor
-// layer.
+// Indices are made on demand, each after its parent's, and stay where they are so that
+// references to them hold. Two threads may build indices ahead. These count only when they are
+// asked for, in the order of asking, and once a bound of nodes or work may be reached with one, it
+// and all after it are built again. So the same arcs are left out as without building ahead. Layer
+// stacks are shared by root layer and source of expression variables; each asset path is opened
+// once for each anchor layer.
 #include "tenon/compose/cache/index_cache.h"
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "tenon/base/paths/path_table.h"
+#include "tenon/base/containers/stable_list.h"
+#include "tenon/base/paths/path_numbers.h"
 #include "tenon/compose/build_index.h"
 #include "tenon/compose/cache/build_ahead.h"
 #include "tenon/compose/composition_error.h"
@@ -49,11 +50,11 @@ struct IndexCache::State {
   std::vector<LayerStackPtr> stacks_in_order;
   std::unordered_map<const layer::Layer*, std::unordered_map<std::string, Result<layer::LayerPtr>>>
       opened;
-  std::deque<IndexAhead> indices;  // built when they were asked for
-  std::deque<IndexBatch> batches;  // built ahead
-  PathTable<IndexAhead*> by_path;
-  bool at_limit = false;    // what was built ahead is of no use any more
-  bool ahead_full = false;  // the work that building ahead may take is done
+  StableList<IndexAhead> indices;
+  PathNumbers by_path;             // of indices
+  std::deque<IndexBatch> batches;  // what indices that were built ahead point into
+  bool at_limit = false;           // what was built ahead is of no use any more
+  bool ahead_full = false;         // the work that building ahead may take is done
   Diagnostics errors;
   std::vector<MissingArc> missing;
   std::set<std::tuple<std::string, Path, std::string, std::string>> known_missing;
@@ -122,10 +123,19 @@ struct IndexCache::State {
     return stack.get();
   }
 
+  auto path_of() const {
+    return [this](std::uint32_t number) { return indices[number - 1].index.path; };
+  }
+  /// nullptr where none is known.
+  const IndexAhead* find(Path path) const {
+    const std::uint32_t number = by_path.find(path, path_of());
+    return number == 0 ? nullptr : &indices[number - 1];
+  }
+
   PrimIndex& add_index(Path path) {
     IndexAhead& added = indices.emplace_back();
     added.index.path = path;
-    by_path[path] = &added;
+    by_path.put(path, static_cast<std::uint32_t>(indices.size()), path_of());
     return added.index;
   }
 
@@ -173,8 +183,8 @@ struct IndexCache::State {
   }
 
   const PrimIndex* find_index(Path path) const {
-    IndexAhead* const* const found = by_path.find(path);
-    return found == nullptr ? nullptr : &(*found)->index;
+    const IndexAhead* const found = find(path);
+    return found == nullptr ? nullptr : &found->index;
   }
 
   const Result<layer::LayerPtr>* find_layer(const std::string& asset_path,
@@ -195,17 +205,18 @@ struct IndexCache::State {
   /// Keeps what was built ahead until it is asked for. True when nothing was left out.
   bool take(std::vector<IndexBatch> built) {
     bool complete = true;
-    std::size_t count = by_path.size();
+    std::size_t count = indices.size();
     for (const IndexBatch& batch : built) {
       complete = complete && batch.complete;
       ahead_full = ahead_full || batch.full;
       count += batch.indices.size();
     }
-    by_path.reserve(count);
+    by_path.reserve(count, path_of());
     for (IndexBatch& batch : built) {
-      for (IndexAhead& ahead : batch.indices) {
-        IndexAhead*& known = by_path[ahead.index.path];
-        known = known == nullptr ? &ahead : known;
+      for (std::size_t at = indices.take_rows(std::move(batch.indices)); at < indices.size();
+           ++at) {
+        const auto number = static_cast<std::uint32_t>(at + 1);
+        by_path.find_or_put(indices[at].index.path, number, path_of());
       }
       batches.push_back(std::move(batch));
     }
@@ -215,12 +226,12 @@ struct IndexCache::State {
   /// The index of a child of a prim that was asked for before. One that was built ahead counts from
   /// now on.
   const PrimIndex& ask_child(const PrimIndex& parent, Path path) {
-    IndexAhead* const* const found = by_path.find(path);
-    if (found == nullptr) {
+    const std::uint32_t number = by_path.find(path, path_of());
+    if (number == 0) {
       return compute_child(parent, path);
     }
-    IndexAhead& known = **found;
-    if (known.waits != 0) {
+    IndexAhead& known = indices[number - 1];
+    if (known.waits) {
       at_limit = at_limit || node_count + known.node_count >= options.max_nodes ||
                  known.work >= work.most() - std::min(work.done(), work.most());
       if (at_limit) {
@@ -229,7 +240,7 @@ struct IndexCache::State {
       node_count += known.node_count;
       work.count(known.work);
       add_costs_ahead(&known);
-      known.waits = 0;
+      known.waits = false;
     }
     return known.index;
   }
@@ -275,9 +286,9 @@ const PrimIndex& IndexCache::index(Path prim_path) {
   std::vector<Path> missing;
   const PrimIndex* found = nullptr;
   for (Path path = prim_path; found == nullptr; path = path.parent()) {
-    IndexAhead* const* const known = state_->by_path.find(path);
-    if (known != nullptr && (*known)->waits == 0) {
-      found = &(*known)->index;
+    const IndexAhead* const known = state_->find(path);
+    if (known != nullptr && !known->waits) {
+      found = &known->index;
     } else if (path.is_absolute_root()) {
       found = &state_->compute_root();
     } else {

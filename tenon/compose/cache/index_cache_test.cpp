@@ -32,9 +32,9 @@ TEST(IndexCache, MapsTimesOverSublayersAndReferences) {
                {"sub", R"(def "A" (references = @ref@ (offset = 1)) {})"},
                {"ref", "(defaultPrim = \"B\"\n timeCodesPerSecond = 48)\ndef \"B\" {}"}});
   const PrimIndex& index = scene.at("/A");
-  ASSERT_EQ(index.opinions.size(), 2u);
-  EXPECT_EQ(index.opinions[0].offset, layer::LayerOffset(10, 2));
-  EXPECT_EQ(index.opinions[1].offset, layer::LayerOffset(12, 1));  // 10 + 2 * (1 + t / 2)
+  ASSERT_EQ(index.opinions().size(), 2u);
+  EXPECT_EQ(index.opinions()[0].offset, layer::LayerOffset(10, 2));
+  EXPECT_EQ(index.opinions()[1].offset, layer::LayerOffset(12, 1));  // 10 + 2 * (1 + t / 2)
 }
 
 TEST(IndexCache, NamesWhatReferencesLack) {
@@ -48,7 +48,7 @@ def "Backwards" (references = @ref@</B> (scale = -1)) {})"},
   EXPECT_EQ(scene.errors("/NoPrim"), "unresolved-prim-path");
   EXPECT_EQ(scene.errors("/NoDefault"), "unresolved-prim-path");
   EXPECT_EQ(scene.errors("/Backwards"), "invalid-reference-offset");
-  EXPECT_TRUE(scene.at("/Backwards").opinions[1].offset.is_identity());
+  EXPECT_TRUE(scene.at("/Backwards").opinions()[1].offset.is_identity());
   ASSERT_EQ(scene.cache().missing_arcs().size(), 1u);
   EXPECT_EQ(scene.cache().missing_arcs()[0].path, "absent");
 }

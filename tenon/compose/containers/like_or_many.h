@@ -10,47 +10,29 @@
 #include <type_traits>
 #include <utility>
 
-#include "tenon/base/containers/index_iterator.h"
-#include "tenon/base/path.h"
-
 namespace tenon::compose {
 
-/// A list of elements that have a path each. Where it has one, that may be like an element that
-/// lies elsewhere but for its path, as the nodes of most prims are like that of their parent: then
-/// the list is all that it takes. Elements come as copies.
+/// A list whose one element may be like another that lies elsewhere, but for what is known without
+/// it: the nodes of most prims are like that of their parent but for the path. Then the list is all
+/// that it takes, which has the size of one pointer. Its elements are of its own otherwise.
 template <class T>
 class LikeOrMany {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> &&
                 alignof(T) <= alignof(std::uint64_t) && alignof(T) > 1);
 
  public:
-  using Iterator = IndexIterator<LikeOrMany, T, T>;
-
   LikeOrMany() = default;
   LikeOrMany(const LikeOrMany&) = delete;
-  LikeOrMany(LikeOrMany&& other) noexcept
-      : at_(std::exchange(other.at_, nullptr)), path_(other.path_) {}
+  LikeOrMany(LikeOrMany&& other) noexcept : at_(std::exchange(other.at_, nullptr)) {}
   LikeOrMany& operator=(const LikeOrMany&) = delete;
   LikeOrMany& operator=(LikeOrMany&& other) noexcept {
     std::swap(at_, other.at_);
-    std::swap(path_, other.path_);
     return *this;
   }
   ~LikeOrMany() { clear(); }
 
   std::size_t size() const { return at_ == nullptr ? 0 : is_like() ? 1 : block()->count; }
   bool empty() const { return at_ == nullptr; }
-  T operator[](std::size_t at) const {
-    if (!is_like()) {
-      return elements()[at];
-    }
-    T element = *like();
-    element.path = path_;
-    return element;
-  }
-  T front() const { return (*this)[0]; }
-  Iterator begin() const { return {this, 0}; }
-  Iterator end() const { return {this, size()}; }
 
   /// What its one element is like; null where the elements are its own.
   const T* like() const {
@@ -62,11 +44,10 @@ class LikeOrMany {
     return is_like() ? std::span<const T>() : std::span<const T>(elements(), size());
   }
 
-  /// One element, which is as `like` but for its path. `like` lives as long as the list.
-  void be_like(const T& like, Path path) {
+  /// One element, which is like this one; it lives as long as the list.
+  void be_like(const T& like) {
     clear();
     at_ = reinterpret_cast<std::byte*>(const_cast<T*>(&like)) + 1;
-    path_ = path;
   }
   /// Takes these elements in place of its own; they lie elsewhere.
   void assign(std::span<const T> elements) {
@@ -98,7 +79,6 @@ class LikeOrMany {
   }
 
   std::byte* at_ = nullptr;
-  Path path_;
 };
 
 }  // namespace tenon::compose

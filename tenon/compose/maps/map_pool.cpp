@@ -3,6 +3,22 @@
 #include "tenon/compose/maps/map_pool.h"
 
 namespace tenon::compose {
+namespace {
+
+/// One of the last few shapes, of which a scene has not many, or a new one.
+template <class T>
+const T* find_lately(std::deque<T>& shapes, const T& shape) {
+  std::size_t left = 8;
+  for (auto known = shapes.rbegin(); known != shapes.rend() && left > 0; ++known, --left) {
+    if (*known == shape) {
+      return &*known;
+    }
+  }
+  shapes.push_back(shape);
+  return &shapes.back();
+}
+
+}  // namespace
 
 const MapFunction* MapPool::add(MapFunction map) {
   if (map.is_identity()) {
@@ -13,17 +29,17 @@ const MapFunction* MapPool::add(MapFunction map) {
 }
 
 const Node* MapPool::like(const Node& node) {
-  constexpr std::size_t kLately = 8;  // a scene has few of them
   Node shape = node;
   shape.path = Path();
-  std::size_t left = kLately;
-  for (auto known = nodes_.rbegin(); known != nodes_.rend() && left > 0; ++known, --left) {
-    if (*known == shape) {
-      return &*known;
-    }
-  }
-  nodes_.push_back(shape);
-  return &nodes_.back();
+  return find_lately(nodes_, shape);
+}
+
+const Opinion* MapPool::like(const Opinion& opinion) {
+  Opinion shape;
+  shape.layer = opinion.layer;
+  shape.node = opinion.node;
+  shape.offset = opinion.offset;
+  return find_lately(opinions_, shape);
 }
 
 const MapFunction* MapPool::compose(const MapFunction* outer, const MapFunction* inner,

@@ -12,7 +12,8 @@
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/work/work_meter.h"
 
-/// Internal: where map functions of nodes live, and nodes that others are like. Maps of many pairs,
+/// Internal: where map functions of nodes live, and nodes and opinions that others are
+/// like. Maps of many pairs,
 /// which relocates make, are made once for all prims that they apply to: whoever needs one first
 /// pays for it.
 namespace tenon::compose {
@@ -47,6 +48,8 @@ class MapPool {
   const MapFunction* add(MapFunction map);
   /// A node that is as this one but for its path, and lives as long as the pool.
   const Node* like(const Node& node);
+  /// An opinion that is as this one but for its spec and its place, and lives as long as the pool.
+  const Opinion* like(const Opinion& opinion);
   /// First `inner`, then `outer`; identities cost nothing.
   const MapFunction* compose(const MapFunction* outer, const MapFunction* inner, WorkMeter& work);
   /// The map of many pairs that `make` makes, made where it is not known. `make` counts its work.
@@ -63,7 +66,8 @@ class MapPool {
 
  private:
   std::deque<MapFunction> maps_;
-  std::deque<Node> nodes_;  // without paths
+  std::deque<Node> nodes_;        // without paths
+  std::deque<Opinion> opinions_;  // without specs and places
   std::unordered_map<MapRecipe, const MapFunction*, MapRecipeHash> made_;
   const MapPool* known_ = nullptr;
   std::function<void()> lacking_;

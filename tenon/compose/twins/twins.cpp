@@ -25,13 +25,13 @@ constexpr std::size_t kMostLooks = 256;    // of one prim, more are not kept
 
 bool may_have_twins(const PrimIndex& index) {
   const auto relocates = [](const Node& node) { return node.layer_stack->has_relocates(); };
-  return index.nodes.size() > 1 && !index.instanceable && index.extras().errors.empty() &&
-         std::none_of(index.nodes.begin(), index.nodes.end(), relocates);
+  return index.nodes().size() > 1 && !index.instanceable && index.extras().errors.empty() &&
+         std::none_of(index.nodes().begin(), index.nodes().end(), relocates);
 }
 
 bool are_twins(const LayerStack& root_stack, const PrimIndex& a, const PrimIndex& b) {
   return a.has_payloads == b.has_payloads && a.payload_loaded == b.payload_loaded &&
-         Renaming(root_stack, a.path, b.path).leads_to(a.nodes.own(), b.nodes.own()) &&
+         Renaming(root_stack, a.path, b.path).leads_to(a.kept_nodes.own(), b.kept_nodes.own()) &&
          author_equal_arcs(root_stack, a.path, b.path);
 }
 
@@ -161,7 +161,7 @@ bool Twins::may_be_kept(const IndexServices& services, const PrimIndex& index) {
     return node.map_to_parent->pairs().size() <= kFewPairs &&
            node.map_to_root->pairs().size() <= kFewPairs;
   };
-  return std::all_of(index.nodes.begin(), index.nodes.end(), has_few_pairs) &&
+  return std::all_of(index.nodes().begin(), index.nodes().end(), has_few_pairs) &&
          index.extras().errors.empty() && index.extras().prohibited_child_names.empty() &&
          !services.work->exhausted() && *services.node_count < services.options->max_nodes;
 }
@@ -203,15 +203,15 @@ bool Twins::says_the_same(const IndexServices& services, const Composed& compose
 
 void Twins::copy_to(const IndexServices& services, const Composed& composed, PrimIndex& index) {
   const PrimIndex& twin = *composed.index;
-  if (twin.nodes.like() != nullptr) {
-    Node node = twin.nodes.front();
+  if (twin.kept_nodes.like() != nullptr) {
+    Node node = twin.nodes().front();
     renaming_.rename({&node, 1}, *services.maps);
-    index.nodes.be_like(*services.maps->like(node), node.path);
+    index.kept_nodes.be_like(*services.maps->like(node));
   } else {
-    index.nodes.assign(twin.nodes.own());
-    renaming_.rename(index.nodes.own(), *services.maps);
+    index.kept_nodes.assign(twin.kept_nodes.own());
+    renaming_.rename(index.kept_nodes.own(), *services.maps);
   }
-  index.opinions.assign(twin.opinions);
+  index.copy_opinions(twin);
   index.child_names = twin.child_names;
   index.property_names = twin.property_names;
   index.name_marks = twin.name_marks;

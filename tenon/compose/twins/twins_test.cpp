@@ -91,7 +91,7 @@ TEST(Twins, AreToldApartByWhatTheRootStackSays) {
   EXPECT_EQ(scene.specs("/World/R1/a"), "ref/M/a, ref/M/_K, ref/M{v=one}a");
   EXPECT_EQ(scene.specs("/World/R3/a"), "root/World/R3/_K, ref/M/a, ref/M/_K, ref/M{v=one}a");
   EXPECT_EQ(scene.specs("/World/R6/a"), "ref/M/a, ref/M/_K, ref/M{v=other}a");
-  EXPECT_EQ(scene.at("/World/R5/a").opinions[0].offset, layer::LayerOffset(2, 1));
+  EXPECT_EQ(scene.at("/World/R5/a").opinions()[0].offset, layer::LayerOffset(2, 1));
 }
 
 /// Where arcs of the parent lead to prims of the same names, these are others below each twin.

@@ -185,7 +185,7 @@ Composed compose_all(IndexCache& cache, bool ahead = false) {
     const PrimIndex& index = *open.back();
     open.pop_back();
     ++composed.prims;
-    composed.nodes += index.nodes.size();
+    composed.nodes += index.nodes().size();
     for (const Diagnostic& found : index.extras().errors) {
       if (found.rule == "compose.work-exceeded") {
         composed.exceeded.push_back(found.message);

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Most values hold no paths. In a large file they are read on one thread while paths and specs are
-// made on another; values with paths follow. An error of the structure goes before one of the
-// values, so the outcome does not depend on the threads. Each field is read once; specs pick theirs
-// out of one table. A budget in proportion to the file's size bounds what references to the same
-// data could multiply.
+// made on another; values with paths follow. Specs are made in the order of the tree, so that a
+// walk down it moves forward in memory. An error of the structure goes before one of the values, so
+// the outcome does not depend on the threads. Each field is read once; specs pick theirs out of one
+// table. A budget in proportion to the file's size bounds what references to the same data could
+// multiply.
 #include "tenon/formats/crate/reader.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -86,6 +87,9 @@ class LayerBuilder {
     TENON_CHECK(structure);
     TENON_CHECK(plain);
     TENON_CHECK(read_values(true));
+    tables_.fields = {};
+    tables_.paths = {};
+    tables_.file->bytes->let_go(tables_.file->bytes->span());
     report_findings();
     TENON_CHECK(add_fields());
     layer_.set_may_lack_text();
@@ -97,25 +101,24 @@ class LayerBuilder {
   Result<void> make_specs() {
     TENON_CHECK(read_paths(tables_));
     TENON_CHECK(read_specs(tables_));
-    specs_.reserve(tables_.specs.size());
-    for (const crate::SpecRow& row : tables_.specs) {
-      TENON_CHECK(make_spec(row));
+    tables_.file->bytes->let_go(tables_.path_section.span());
+    tables_.file->bytes->let_go(tables_.spec_section.span());
+    for (const std::uint32_t at : tables_.path_order) {
+      if (tables_.specs[at].kind != SpecKind::None) {
+        TENON_CHECK(make_spec(tables_.paths[at], tables_.specs[at].kind));
+      }
     }
     return {};
   }
 
-  Result<void> make_spec(const crate::SpecRow& row) {
-    const Path path = tables_.paths[row.path];
-    if (!kind_fits(row.kind, path)) {
+  Result<void> make_spec(Path path, SpecKind kind) {
+    if (!kind_fits(kind, path)) {
       return crate::corrupt("the spec at " + path.str() + " is of a kind that cannot be there");
     }
-    const bool first_root = path.is_absolute_root() && !root_seen_;  // each layer has a root
-    layer::Spec* const spec = first_root ? &layer_.root() : layer_.create_new(path, row.kind);
-    if (spec == nullptr) {
+    // Each layer has a root.
+    if (kind != SpecKind::PseudoRoot && layer_.create_new(path, kind) == nullptr) {
       return crate::corrupt("there are two specs at " + path.str());
     }
-    specs_.push_back(spec);
-    root_seen_ = root_seen_ || first_root;
     return {};
   }
 
@@ -151,19 +154,28 @@ class LayerBuilder {
 
   /// Specs of one set of fields share them.
   Result<void> add_fields() {
-    const std::vector<std::uint32_t>& sets = tables_.field_sets;
-    TENON_TRY(list_of_set_, crate::ZeroedArray<std::uint32_t>::make(sets.size()));
-    for (const crate::SpecRow& row : tables_.specs) {
-      if (list_of_set_[row.field_set] == 0) {
+    TENON_TRY(checked_, crate::ZeroedArray<SetForm>::make(tables_.field_sets.size()));
+    for (const std::uint32_t at : tables_.path_order) {
+      const crate::SpecRow& row = tables_.specs[at];
+      if (row.kind != SpecKind::None && checked_[row.field_set] == SetForm::Unknown) {
         TENON_CHECK(check_set(row.field_set));
       }
     }
-    layer::FieldTable* const table = layer::FieldTable::make(std::move(fields_), sets);
-    for (std::size_t i = 0; i < specs_.size(); ++i) {
-      const std::uint32_t set = tables_.specs[i].field_set;
-      const std::uint32_t list = list_of_set_[set];
-      specs_[i]->set_field_list(list == kInTable ? table->list(set)
-                                                 : own_lists_[list - kInTable - 1]);
+    layer::FieldTable* const table =
+        layer::FieldTable::make(std::move(fields_), tables_.field_sets);
+    tables_.field_sets = {};
+    std::uint32_t number = 1;  // of the root's spec; the others follow as they were made
+    for (const std::uint32_t at : tables_.path_order) {
+      const crate::SpecRow& row = tables_.specs[at];
+      if (row.kind == SpecKind::None) {
+        continue;
+      }
+      number += row.kind == SpecKind::PseudoRoot ? 0 : 1;
+      layer::Spec& spec =
+          row.kind == SpecKind::PseudoRoot ? layer_.root() : layer_.numbered_spec(number);
+      spec.set_field_list(checked_[row.field_set] == SetForm::InTable
+                              ? table->list(row.field_set)
+                              : own_lists_.at(row.field_set));
     }
     table->release();
     return {};
@@ -181,7 +193,7 @@ class LayerBuilder {
     }
     TENON_CHECK(budget_.spend(end - set));
     if (as_it_is && are_all_new({sets.data() + set, end - set})) {
-      list_of_set_[set] = kInTable;
+      checked_[set] = SetForm::InTable;
       return {};
     }
     layer::FieldList fields;
@@ -192,8 +204,8 @@ class LayerBuilder {
         fields.append(field.name, field.value);
       }
     }
-    own_lists_.push_back(std::move(fields));
-    list_of_set_[set] = kInTable + static_cast<std::uint32_t>(own_lists_.size());
+    own_lists_.emplace(set, std::move(fields));
+    checked_[set] = SetForm::OwnList;
     return {};
   }
 
@@ -226,28 +238,27 @@ class LayerBuilder {
       return std::all_of(set.begin(), set.end(),
                          [&](std::uint32_t i) { return met.insert(fields_[i].name).second; });
     }
-    std::array<const void*, kFew> met{};
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      met[i] = fields_[set[i]].name.id();
-      if (std::find(met.begin(), met.begin() + i, met[i]) != met.begin() + i) {
+    for (std::size_t i = 1; i < set.size(); ++i) {
+      const auto is_same = [&](std::uint32_t other) {
+        return fields_[other].name == fields_[set[i]].name;
+      };
+      if (std::any_of(set.begin(), set.begin() + static_cast<std::ptrdiff_t>(i), is_same)) {
         return false;
       }
     }
     return true;
   }
 
-  static constexpr std::uint32_t kInTable = 1;
+  enum class SetForm : std::uint8_t { Unknown, InTable, OwnList };
 
   crate::Tables tables_;
   crate::WorkBudget budget_;
   Diagnostics& diagnostics_;
   Diagnostics findings_;
   layer::Layer layer_;
-  std::vector<layer::Spec*> specs_;  // of tables_.specs
   std::vector<layer::Field> fields_;
-  std::vector<layer::FieldList> own_lists_;        // of sets that are no list as they are
-  crate::ZeroedArray<std::uint32_t> list_of_set_;  // by its start: kInTable, or behind it its list
-  bool root_seen_ = false;
+  std::unordered_map<std::uint32_t, layer::FieldList> own_lists_;  // of sets, by where they start
+  crate::ZeroedArray<SetForm> checked_;                            // the same
 };
 
 }  // namespace

@@ -65,7 +65,7 @@ TableWriter::TableWriter() {
 }
 
 void TableWriter::reserve(std::size_t specs) {
-  path_rows_.reserve(specs + 1);
+  path_rows_.reserve(specs + 1, path_of());
   for (std::vector<std::uint32_t>* rows :
        {&path_tokens_, &spec_paths_, &spec_sets_, &spec_kinds_}) {
     rows->reserve(specs + 1);
@@ -113,7 +113,8 @@ std::uint32_t TableWriter::path(Path path) {
 
 void TableWriter::add_above(Path path) {
   std::vector<Path> missing;
-  for (Path at = path.parent(); !at.empty() && path_rows_.find(at) == nullptr; at = at.parent()) {
+  for (Path at = path.parent(); !at.empty() && path_rows_.find(at, path_of()) == 0;
+       at = at.parent()) {
     missing.push_back(at);
   }
   std::for_each(missing.rbegin(), missing.rend(), [this](Path at) { row_of(at); });
@@ -121,13 +122,13 @@ void TableWriter::add_above(Path path) {
 
 /// The row of a path, made where there is none yet; those above have theirs.
 std::uint32_t TableWriter::row_of(Path path) {
-  std::uint32_t& row = path_rows_[path];
-  if (row == 0) {
+  const auto next = static_cast<std::uint32_t>(paths_.size() + 1);
+  const std::uint32_t number = path_rows_.find_or_put(path, next, path_of());
+  if (number == next) {
     paths_.push_back(path);
     path_tokens_.push_back(token(element_of(path)));
-    row = static_cast<std::uint32_t>(paths_.size());
   }
-  return row - 1;
+  return number - 1;
 }
 
 std::uint32_t TableWriter::empty_path() {
@@ -255,7 +256,7 @@ std::vector<std::uint32_t> TableWriter::ordered_paths(std::span<const Path> spec
   std::vector<std::uint32_t> rows;
   rows.reserve(paths_.size());
   for (const Path path : spec_paths) {
-    rows.push_back(path_rows_.at(path) - 1);
+    rows.push_back(path_rows_.find(path, path_of()) - 1);
   }
   return rows;
 }

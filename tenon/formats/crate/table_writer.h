@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tenon/base/path.h"
-#include "tenon/base/paths/path_table.h"
+#include "tenon/base/paths/path_numbers.h"
 #include "tenon/base/token.h"
 #include "tenon/bytes/byte_writer.h"
 #include "tenon/formats/crate/layout.h"
@@ -48,6 +48,9 @@ class TableWriter {
   std::uint32_t empty_path();
   void add_above(Path path);
   std::uint32_t row_of(Path path);
+  auto path_of() const {
+    return [this](std::uint32_t number) { return paths_[number - 1]; };
+  }
   void write_tokens(bytes::ByteWriter& out) const;
   void write_fields(bytes::ByteWriter& out) const;
   /// Rows of paths in the order of these.
@@ -63,7 +66,7 @@ class TableWriter {
   std::vector<std::uint32_t> string_of_token_;  // 1 + its number; 0: none
   std::vector<Path> paths_;
   std::vector<std::uint32_t> path_tokens_;  // of their last elements
-  PathTable<std::uint32_t> path_rows_;      // 1 + where it is
+  PathNumbers path_rows_;                   // 1 + where a path is in paths_
   Path last_parent_;  // of the path that came last: it and what is above it have rows
   std::uint32_t empty_path_ = RowIndex::kNone;
   std::vector<std::uint32_t> field_names_;

@@ -5,8 +5,7 @@
 // no more rows than a constant and the size of the file allow, which is checked before memory is
 // taken, and every index is checked when its row is read. Whoever uses the tables needs no checks
 // of their own. Specs come after the paths, which path_tree.cpp reads: each is noted under its
-// path, which finds doubles, and then listed in the order in which the paths were made. A walk down
-// the tree moves forward in memory that way.
+// path, which finds doubles.
 #include "tenon/formats/crate/tables.h"
 
 #include <algorithm>
@@ -181,34 +180,19 @@ Result<std::vector<std::uint32_t>> read_field_sets(bytes::ByteReader in, const C
   return sets;
 }
 
-/// What the file says about one path.
-struct SpecOfPath {
-  std::uint32_t field_set;
-  layer::SpecKind kind;  ///< None: nothing
-};
-
-/// The specs in the order of `path_order`: neighbours in the tree are neighbours in memory.
-std::vector<SpecRow> in_path_order(const ZeroedArray<SpecOfPath>& specs, std::size_t count,
-                                   const Tables& tables) {
-  std::vector<SpecRow> sorted;
-  sorted.reserve(count);
-  for (const std::uint32_t path : tables.path_order) {
-    const SpecOfPath& spec = specs[path];
-    if (spec.kind != layer::SpecKind::None) {
-      sorted.push_back({path, spec.field_set, spec.kind});
-    }
-  }
-  return sorted;
-}
-
 Result<Tables> read_sections(const Contents& contents, std::shared_ptr<CrateFile> file) {
   const bytes::FileBytes& bytes = *file->bytes;
+  const bytes::ByteReader tokens = contents.section("TOKENS", bytes);
+  const bytes::ByteReader fields = contents.section("FIELDS", bytes);
+  const bytes::ByteReader sets = contents.section("FIELDSETS", bytes);
   Tables tables;
-  TENON_TRY(file->tokens, read_tokens(contents.section("TOKENS", bytes)));
+  TENON_TRY(file->tokens, read_tokens(tokens));
+  bytes.let_go(tokens.span());
   TENON_TRY(file->strings, read_strings(contents.section("STRINGS", bytes), file->tokens.size()));
-  TENON_TRY(tables.fields, read_fields(contents.section("FIELDS", bytes), *file));
-  TENON_TRY(tables.field_sets,
-            read_field_sets(contents.section("FIELDSETS", bytes), *file, tables.fields.size()));
+  TENON_TRY(tables.fields, read_fields(fields, *file));
+  bytes.let_go(fields.span());
+  TENON_TRY(tables.field_sets, read_field_sets(sets, *file, tables.fields.size()));
+  bytes.let_go(sets.span());
   tables.path_section = contents.section("PATHS", bytes);
   tables.spec_section = contents.section("SPECS", bytes);
   tables.file = std::move(file);
@@ -247,7 +231,7 @@ namespace {
 
 /// What row `at` says, noted by its path.
 Result<void> note_spec(const Tables& tables, std::uint64_t at, std::uint32_t path,
-                       std::uint32_t set, std::uint32_t kind, ZeroedArray<SpecOfPath>& specs) {
+                       std::uint32_t set, std::uint32_t kind, ZeroedArray<SpecRow>& specs) {
   const bool starts_run =
       set < tables.field_sets.size() && (set == 0 || tables.field_sets[set - 1] == kEndOfSet);
   if (path >= tables.paths.size() || tables.paths[path].empty() || !starts_run || kind == 0 ||
@@ -264,6 +248,7 @@ Result<void> note_spec(const Tables& tables, std::uint64_t at, std::uint32_t pat
 }  // namespace
 
 Result<void> read_specs(Tables& tables) {
+  TENON_TRY(tables.specs, ZeroedArray<SpecRow>::make(tables.paths.size()));
   bytes::ByteReader in = tables.spec_section;
   if (in.size() == 0) {
     return {};
@@ -272,7 +257,6 @@ Result<void> read_specs(Tables& tables) {
   TENON_TRY(auto path_rows, open_packed<std::uint32_t>(in, count));
   TENON_TRY(auto set_rows, open_packed<std::uint32_t>(in, count));
   TENON_TRY(auto kind_rows, open_packed<std::uint32_t>(in, count));
-  TENON_TRY(auto specs, ZeroedArray<SpecOfPath>::make(tables.paths.size()));
   constexpr std::size_t kBlock = 256;
   std::array<std::uint32_t, kBlock> paths;
   std::array<std::uint32_t, kBlock> sets;
@@ -283,10 +267,9 @@ Result<void> read_specs(Tables& tables) {
     set_rows.read(std::span(sets).first(size));
     kind_rows.read(std::span(kinds).first(size));
     for (std::size_t i = 0; i < size; ++i) {
-      TENON_CHECK(note_spec(tables, start + i, paths[i], sets[i], kinds[i], specs));
+      TENON_CHECK(note_spec(tables, start + i, paths[i], sets[i], kinds[i], tables.specs));
     }
   }
-  tables.specs = in_path_order(specs, static_cast<std::size_t>(count), tables);
   return {};
 }
 

@@ -35,20 +35,21 @@ struct FieldRow {
   ValueWord value;
 };
 
+/// What the file says about one path. Zero bytes: nothing.
 struct SpecRow {
-  std::uint32_t path = 0;       ///< index in Tables::paths
-  std::uint32_t field_set = 0;  ///< index in Tables::field_sets where its run starts
-  layer::SpecKind kind = layer::SpecKind::None;
+  std::uint32_t field_set;  ///< index in Tables::field_sets where its run starts
+  layer::SpecKind kind;     ///< None where there is no spec
 };
 
-/// The structural sections of a crate file; every index in them is in range.
+/// The structural sections of a crate file; every index in them is in range. What a large file says
+/// takes as much memory here as in the layer: whoever needs a part no more lets it go.
 struct Tables {
   std::shared_ptr<const CrateFile> file;
   std::vector<FieldRow> fields;
   std::vector<std::uint32_t> field_sets;  ///< runs of field indices, each ended by kEndOfSet
   ZeroedArray<Path> paths;                ///< the empty path where the file gives none
   std::vector<std::uint32_t> path_order;  ///< indices of `paths` as they were made, depth first
-  std::vector<SpecRow> specs;             ///< sorted by `path_order`
+  ZeroedArray<SpecRow> specs;             ///< of `paths`
   bytes::ByteReader path_section{{}};     ///< of the file; read by `read_paths`
   bytes::ByteReader spec_section{{}};     ///< of the file; read by `read_specs`
 };

@@ -131,18 +131,18 @@ class PairFilter {
   /// collider, or all that lies below any other prim (S-81).
   Colliders meant_by(Path path) const {
     Colliders list;
-    if (const std::uint32_t* const found = state_.walk.index_of.find(path)) {
-      const PhysicsPrim& prim = state_.walk.prims[*found];
+    if (const std::uint32_t found = state_.walk.index_of(path); found != kNone) {
+      const PhysicsPrim& prim = state_.walk.prims[found];
       if (prim.is_body) {
-        append(state_.body_of_prim[*found], list);
+        append(state_.body_of_prim[found], list);
         report_two_meanings(prim);
         return list;
       }
       if (prim.roles.has(Api::ArticulationRoot)) {
         append_links(path, list);
       }
-      if (list.empty() && state_.collider_of_prim[*found] != kNone) {
-        list.push_back(state_.collider_of_prim[*found]);
+      if (list.empty() && state_.collider_of_prim[found] != kNone) {
+        list.push_back(state_.collider_of_prim[found]);
       }
     }
     return list.empty() ? below(path) : list;
@@ -218,9 +218,9 @@ class PairFilter {
     for (int side = 0; side < 2; ++side) {
       const Token name = side == 0 ? state_.tokens.body0 : state_.tokens.body1;
       for (const Path& target : found.prim.relationship(name).targets()) {
-        const std::uint32_t* const at = state_.walk.index_of.find(state_.walk.near(found, target));
-        if (at != nullptr && state_.walk.prims[*at].is_body) {
-          append(state_.body_of_prim[*at], sides[side]);
+        const std::uint32_t at = state_.walk.index_of(state_.walk.near(found, target));
+        if (at != kNone && state_.walk.prims[at].is_body) {
+          append(state_.body_of_prim[at], sides[side]);
         }
       }
     }
@@ -233,7 +233,7 @@ class PairFilter {
     for (const Index link : articulation.links) {
       append(link, all);
     }
-    const PhysicsPrim& root = state_.walk.prims[state_.walk.index_of.at(articulation.path)];
+    const PhysicsPrim& root = *state_.walk.find(articulation.path);
     speaks(PairRule::Articulation, articulation.path, self_collision_property(state_, root));
     add_all(all, all);
   }

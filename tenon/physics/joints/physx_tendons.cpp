@@ -180,9 +180,9 @@ class PhysxTendons {
     if (links.empty() || !name) {
       return std::nullopt;
     }
-    const std::uint32_t* const found =
-        state_.walk.index_of.find(state_.walk.near(prim(stop.prim), links.front()));
-    return found == nullptr ? std::nullopt : std::optional(Stop{*found, *name});
+    const std::uint32_t found =
+        state_.walk.index_of(state_.walk.near(prim(stop.prim), links.front()));
+    return found == kNone ? std::nullopt : std::optional(Stop{found, *name});
   }
 
   bool is_root(const Stop& stop) const {

@@ -152,9 +152,10 @@ ComposedSets compose_site(const compose::PrimIndex& index, Opinions opinions,
   return sets;
 }
 
-ComposedSets compose_sites(const compose::PrimIndex& index, Diagnostics& diagnostics) {
+/// All opinions of the index.
+ComposedSets compose_sites(const compose::PrimIndex& index, Opinions opinions,
+                           Diagnostics& diagnostics) {
   ComposedSets result;
-  const Opinions opinions(index.opinions);
   for (std::size_t first = 0; first < opinions.size();) {
     std::size_t last = first + 1;
     while (last < opinions.size() && opinions[last].node == opinions[first].node) {
@@ -237,13 +238,18 @@ std::string ClipDefinition::key() const {
 }
 
 bool has_clips(const compose::PrimIndex& index) {
-  return std::any_of(index.opinions.begin(), index.opinions.end(),
-                     [](const auto& opinion) { return opinion.spec->has(fields::clips); });
+  for (const compose::Opinion& opinion : index.opinions()) {
+    if (opinion.spec->has(fields::clips)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<ClipDefinition> clip_definitions(const compose::PrimIndex& index,
                                              const ClipFiles& files, Diagnostics& diagnostics) {
-  const ComposedSets composed = compose_sites(index, diagnostics);
+  const compose::Opinions opinions = index.opinions();
+  const ComposedSets composed = compose_sites(index, opinions, diagnostics);
   std::vector<const ComposedSets::value_type*> sorted;
   for (const auto& entry : composed) {
     sorted.push_back(&entry);
@@ -258,7 +264,7 @@ std::vector<ClipDefinition> clip_definitions(const compose::PrimIndex& index,
     const ComposedSet& set = entry->second;
     ClipDefinition& definition = result.emplace_back();
     definition.name = entry->first;
-    definition.layer_stack = index.nodes[set.anchor->node].layer_stack;
+    definition.layer_stack = index.nodes()[set.anchor->node].layer_stack;
     definition.layer = set.anchor->layer;
     definition.site = set.anchor->path;
     definition.offset = set.anchor->offset;

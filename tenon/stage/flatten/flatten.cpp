@@ -69,7 +69,7 @@ bool stays_the_same(const Spec& spec) {
 /// The spec of an attribute's only opinion when flattening would repeat it field by field.
 const Spec* spec_to_share(const PrimData& prim, Token name) {
   const Spec* found = nullptr;
-  bool is_only = prim.clips == nullptr;
+  bool is_only = prim.clips() == nullptr;
   visit_property_opinions(prim, name, [&](const compose::Opinion& opinion) {
     is_only = is_only && found == nullptr && opinion.offset.is_identity();
     found = opinion.spec;
@@ -84,7 +84,7 @@ const Spec* spec_to_share(const PrimData& prim, Token name) {
 
 /// Clips may give values to attributes that no layer of the stage names.
 std::vector<Token> names_to_copy(const Prim& prim, const PrimData& data) {
-  if (data.clips == nullptr) {
+  if (data.clips() == nullptr) {
     return prim.authored_property_names();
   }
   std::vector<Token> names = prim.property_names();
@@ -212,7 +212,7 @@ class Flattener {
     if (!prim.type_name().empty()) {
       spec.set(fields::typeName, prim.type_name());
     }
-    const PrimData& data = *stage_.data().by_path.at(prim.path());
+    const PrimData& data = *stage_.data().record(prim.path());
     copy_prim_metadata(data, spec);
     if (prim.is_instance()) {
       layer::Reference reference;
@@ -233,7 +233,7 @@ class Flattener {
   }
 
   void copy_prim_metadata(const PrimData& data, Spec& spec) const {
-    visit_metadata(stage_.data(), data, data.index->opinions, AssetForm::Anchored,
+    visit_metadata(stage_.data(), data, data.index->opinions(), AssetForm::Anchored,
                    [&](Token name, const Value& value) {
                      if (name != fields::specifier && name != fields::typeName) {
                        copy_field(name, value, spec);

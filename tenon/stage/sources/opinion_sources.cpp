@@ -99,10 +99,10 @@ void find_author(const compose::LayerStack& stack, ArcStep& step) {
 
 std::vector<ArcStep> arcs_to(const compose::PrimIndex& index, std::uint32_t id) {
   std::vector<ArcStep> steps;
-  for (; id != compose::kNoNode && index.nodes[id].parent != compose::kNoNode;
-       id = index.nodes[id].parent) {
-    const compose::Node& node = index.nodes[id];
-    const compose::Node& parent = index.nodes[node.parent];
+  for (; id != compose::kNoNode && index.nodes()[id].parent != compose::kNoNode;
+       id = index.nodes()[id].parent) {
+    const compose::Node& node = index.nodes()[id];
+    const compose::Node& parent = index.nodes()[node.parent];
     const std::size_t depth = compose::namespace_depth_of(parent.path);
     const std::size_t below = depth > node.namespace_depth ? depth - node.namespace_depth : 0;
     ArcStep step;
@@ -135,7 +135,7 @@ OpinionSource source_of(const compose::PrimIndex& index, const compose::Opinion&
   source.layer = opinion.layer;
   source.spec = opinion.spec;
   source.path = opinion.path;
-  source.stack = index.nodes[opinion.node].layer_stack->identifier();
+  source.stack = index.nodes()[opinion.node].layer_stack->identifier();
   source.arcs = arcs_to(index, opinion.node);
   source.offset = opinion.offset;
   return source;
@@ -147,7 +147,7 @@ std::vector<OpinionSource> opinion_sources(const Stage& stage, Path prim, Token 
   if (record == nullptr || record->index == nullptr) {
     return sources;
   }
-  for (compose::Opinion opinion : record->index->opinions) {
+  for (compose::Opinion opinion : record->index->opinions()) {
     if (!property.empty()) {
       opinion.path = opinion.path.property(property);
       opinion.spec = opinion.layer->find(opinion.path);
@@ -186,11 +186,12 @@ std::vector<OpinionSource> ignored_below_instance(const Stage& stage, Path prim,
 std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std::string& layer) {
   const PrimData* record = record_of(stage, prim);
   const bool proxy = record != nullptr && record->in_prototype;
-  for (Path rest = prim; record != nullptr && record->index != nullptr; record = record->parent) {
+  for (Path rest = prim; record != nullptr && record->index != nullptr;
+       record = stage.data().numbered(record->parent)) {
     if (record->is_prototype_root) {
       return std::nullopt;  // what stands further out is not shared
     }
-    const auto& nodes = record->index->nodes;
+    const auto& nodes = record->index->nodes();
     for (std::uint32_t id = 0; id < nodes.size(); ++id) {
       if (nodes[id].can_contribute() && has_layer(*nodes[id].layer_stack, layer)) {
         LayerSite site;
@@ -199,10 +200,11 @@ std::optional<LayerSite> site_in_layer(const Stage& stage, Path prim, const std:
         site.node = id;
         if (proxy) {
           const PrimData* shared = record;
-          for (site.shared_from = rest; !shared->is_prototype_root; shared = shared->parent) {
+          for (site.shared_from = rest; !shared->is_prototype_root;
+               shared = stage.data().numbered(shared->parent)) {
             site.shared_from = site.shared_from.parent();
           }
-          site.shared_as = shared->source_path;
+          site.shared_as = shared->source_path();
         }
         return site;
       }

@@ -92,7 +92,8 @@ class UsedByField {
     }
     const auto [at, inserted] = known_.try_emplace(field);
     if (inserted) {
-      compose_field(stage_, prim_, prim_.index->opinions, field, AssetForm::Resolved, &at->second);
+      compose_field(stage_, prim_, prim_.index->opinions(), field, AssetForm::Resolved,
+                    &at->second);
     }
     return &at->second;
   }
@@ -112,7 +113,7 @@ std::vector<TracedField> trace_fields(const Stage& stage, Path prim) {
   }
   UsedByField used(stage.data(), *record);
   FieldRows rows;
-  for (const compose::Opinion& opinion : record->index->opinions) {
+  for (const compose::Opinion& opinion : record->index->opinions()) {
     const OpinionSource source = source_of(*record->index, opinion);
     for (const layer::Field& field : opinion.spec->fields()) {
       if (!layer::is_child_list(field.name)) {

@@ -61,8 +61,8 @@ ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked) {
 const Value* value_in_place(const PrimData& prim, Token name) {
   static const Value none;
   const Value* authored = nullptr;
-  prim.index->visit_property(name, [&](const compose::Opinion&, const layer::Layer::Entry& entry) {
-    authored = entry.spec.find(layer::fields::default_value);
+  prim.index->visit_property(name, [&](const compose::Opinion& opinion) {
+    authored = opinion.spec->find(layer::fields::default_value);
     return authored != nullptr;
   });
   if (authored != nullptr) {

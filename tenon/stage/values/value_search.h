@@ -174,7 +174,7 @@ bool visit_node(const compose::Node& node, compose::Opinion opinion,
 /// The same for a prim with clips.
 template <class Search>
 void visit_nodes(const PrimData& prim, Token name, Search& search) {
-  const auto& nodes = prim.index->nodes;
+  const auto& nodes = prim.index->nodes();
   for (std::uint32_t id = 0; id < nodes.size(); ++id) {
     const compose::Node& node = nodes[id];
     if (!node.can_contribute()) {
@@ -184,7 +184,7 @@ void visit_nodes(const PrimData& prim, Token name, Search& search) {
     opinion.node = id;
     opinion.path = node.path.property(name);
     std::vector<const ClipSet*> sets;
-    for (const auto& set : *prim.clips) {
+    for (const auto& set : *prim.clips()) {
       if (set->applies_to(node) && set->declares(opinion.path)) {
         sets.push_back(set.get());
       }
@@ -198,7 +198,7 @@ void visit_nodes(const PrimData& prim, Token name, Search& search) {
 /// Shows the statements about an attribute's value, strongest first, until one decides.
 template <class Search>
 void visit_statements(const PrimData& prim, Token name, Asked asked, Search& search) {
-  if (prim.clips != nullptr && (Search::kSeesAll || asked == Asked::AnyTime)) {
+  if (prim.clips() != nullptr && (Search::kSeesAll || asked == Asked::AnyTime)) {
     visit_nodes(prim, name, search);
   } else {
     visit_property_opinions(
