@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/containers/apart.h"
 #include "tenon/base/enum_range.h"
 #include "tenon/base/fields.h"
 
@@ -36,6 +37,8 @@ template <class T>
 inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool kIsOptional<Apart<T>> = true;
 template <class T>
 inline constexpr bool kIsMap = false;
 template <class K, class V>

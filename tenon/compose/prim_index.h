@@ -197,6 +197,11 @@ struct PrimIndex {
 
   /// Strongest first; node 0 is the root, whose path is that of the prim.
   Nodes nodes() const { return {kept_nodes, path}; }
+  /// A node where it is kept; its path does not count.
+  const Node& node_shape(std::uint32_t node) const {
+    const Node* const like = kept_nodes.like();
+    return like == nullptr ? kept_nodes.own()[node] : *like;
+  }
   /// Prim specs, strongest first.
   Opinions opinions() const {
     const Opinion* const like = kept_opinions.like();
@@ -278,11 +283,11 @@ struct PrimIndex {
 
   /// `path` of node's namespace in the stage's; empty when it has no image.
   Path map_to_root(std::uint32_t node, Path path_in_node) const {
-    return nodes()[node].map_to_root->map_source_to_target(path_in_node.strip_variants());
+    return node_shape(node).map_to_root->map_source_to_target(path_in_node.strip_variants());
   }
   /// Stage time of a time in the node's layer stack (its root layer).
   const layer::LayerOffset& node_offset(std::uint32_t node) const {
-    return nodes()[node].map_to_root->offset();
+    return node_shape(node).map_to_root->offset();
   }
 
  private:

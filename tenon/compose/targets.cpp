@@ -141,7 +141,7 @@ class TargetCombiner {
 
   Path deleted_target(Path path, const PropertyOpinion& opinion) {
     const Path target =
-        map_with_targets(*index_.nodes()[opinion.node].map_to_root, absolute(path, opinion));
+        map_with_targets(*index_.node_shape(opinion.node).map_to_root, absolute(path, opinion));
     if (!target.empty()) {
       list_.deleted.push_back(target);
       std::erase_if(errors_, [&](const Found& found) { return found.target == target; });
@@ -151,7 +151,7 @@ class TargetCombiner {
 
   Path target_of(Path path, const PropertyOpinion& opinion) {
     const Path in_node = absolute(path, opinion);
-    const Path target = map_with_targets(*index_.nodes()[opinion.node].map_to_root, in_node);
+    const Path target = map_with_targets(*index_.node_shape(opinion.node).map_to_root, in_node);
     if (target.empty() || (cache_ == nullptr && relocated_from_instance(in_node, opinion))) {
       const ArcKind arc = index_.nodes()[opinion.node].arc;
       const std::uint32_t parent = index_.nodes()[opinion.node].parent;
@@ -191,7 +191,7 @@ class TargetCombiner {
 
   /// What lies in the prim that uses the class, before relocates, has no way back into the class.
   bool relocated_from_instance(Path in_node, const PropertyOpinion& opinion) const {
-    const Node& node = index_.nodes()[opinion.node];
+    const Node& node = index_.node_shape(opinion.node);
     if (node.arc != ArcKind::Inherit || !node.layer_stack->has_relocates()) {
       return false;
     }
@@ -259,7 +259,7 @@ TargetOrigin origin_of_target(const PrimIndex& index, Token property, Path targe
     if (op == nullptr) {
       continue;
     }
-    const MapFunction& map = *index.nodes()[opinion.node].map_to_root;
+    const MapFunction& map = *index.node_shape(opinion.node).map_to_root;
     for (const auto* items : {&op->explicit_items, &op->prepended, &op->appended, &op->added}) {
       for (const Path item : *items) {
         if (map_with_targets(map, item.absolute(opinion.path.prim())) == target) {

@@ -59,7 +59,7 @@ const layer::Value& AttributeValues::resolved(const stage::Attribute& attribute,
       return room = attribute.get(start_);
     }
   }
-  const layer::Value* const in_place = attribute.value_in_place();
+  const layer::Value* const in_place = memo_->value_in_place(attribute);
   return in_place != nullptr ? *in_place : room = attribute.get();
 }
 
@@ -131,7 +131,7 @@ std::optional<Quatd> AttributeValues::rotation(const stage::Prim& prim, Token na
 
 std::optional<double> AttributeValues::authored_number(const stage::Prim& prim, Token name) const {
   const stage::Attribute attribute = prim.attribute(name);
-  if (!attribute.has_authored_value()) {
+  if (!memo_->has_authored_value(attribute)) {
     return std::nullopt;
   }
   layer::Value room;
@@ -148,7 +148,7 @@ std::optional<double> AttributeValues::authored_number(const stage::Prim& prim, 
 
 std::optional<bool> AttributeValues::authored_flag(const stage::Prim& prim, Token name) const {
   const stage::Attribute attribute = prim.attribute(name);
-  if (!attribute.has_authored_value()) {
+  if (!memo_->has_authored_value(attribute)) {
     return std::nullopt;
   }
   layer::Value room;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -16,6 +17,7 @@
 #include "tenon/stage/prim.h"
 #include "tenon/stage/stage.h"
 #include "tenon/stage/time.h"
+#include "tenon/stage/values/value_memo.h"
 
 namespace tenon::physics {
 
@@ -114,6 +116,7 @@ class AttributeValues {
   bool samples_first_ = false;
   std::unordered_set<std::string>* asked_ = nullptr;
   Diagnostics* diagnostics_;
+  std::shared_ptr<stage::ValueMemo> memo_ = std::make_shared<stage::ValueMemo>();
 };
 
 /// One finding about a prim as a whole, or about what `part` names.

@@ -23,6 +23,7 @@
 #include "tenon/scene/shapes/mesh_inertia.h"
 #include "tenon/scene/shapes/mesh_tools.h"
 #include "tenon/stage/stage.h"
+#include "tenon/stage/targets/target_memo.h"
 
 namespace tenon::physics {
 
@@ -47,6 +48,7 @@ struct ReadState {
   Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
   SharedMeshes shared_meshes{};
+  mutable stage::TargetMemo target_memo{};
   Walk walk{};
   PhysicsScene scene{};
 
@@ -83,6 +85,10 @@ struct ReadState {
     return (code - scene.start_time_code) / scene.time_codes_per_second;
   }
 
+  /// What a relationship targets, as the prim sees it.
+  std::vector<Path> targets(const stage::Prim& prim, Token name) const {
+    return target_memo.targets(prim.relationship(name));
+  }
   /// The object of the prim at a path, or kNone.
   std::uint32_t body_at(Path path) const { return object_at(path, body_of_prim); }
   std::uint32_t collider_at(Path path) const { return object_at(path, collider_of_prim); }

@@ -186,7 +186,7 @@ Index default_scene(const ReadState& state) {
 }
 
 OwnerScene owner_scene(const ReadState& state, const stage::Prim& prim, Index fallback) {
-  const std::vector<Path> targets = prim.relationship(state.tokens.simulation_owner).targets();
+  const std::vector<Path> targets = state.targets(prim, state.tokens.simulation_owner);
   if (targets.empty()) {
     return {fallback, true};
   }

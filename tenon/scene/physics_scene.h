@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/containers/apart.h"
 #include "tenon/base/path.h"
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
@@ -68,7 +69,7 @@ struct Body {
   double gravity_scale = 1;
   BodySettings settings{};
   BodyParts parts{};
-  std::optional<InstanceSource> instance;
+  Apart<InstanceSource> instance;
 };
 
 enum class ShapeKind : std::uint8_t {

@@ -7,6 +7,7 @@
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/property_facts.h"
 #include "tenon/stage/stage_data.h"
+#include "tenon/stage/targets/composed_targets.h"
 
 namespace tenon::stage {
 

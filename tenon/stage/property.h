@@ -14,6 +14,8 @@
 namespace tenon::stage {
 
 class Prim;
+class TargetMemo;
+class ValueMemo;
 struct PrimData;
 struct StageData;
 
@@ -34,6 +36,9 @@ class Property {
                             Path target) const;
 
  protected:
+  friend class TargetMemo;
+  friend class ValueMemo;
+  class ValueMemo;
   Property() = default;
   Property(const StageData* stage, const PrimData* prim, Path proxy_path, Token name)
       : stage_(stage), prim_(prim), proxy_path_(proxy_path), name_(name) {}

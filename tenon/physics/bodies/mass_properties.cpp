@@ -103,8 +103,8 @@ MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored
   return result;
 }
 
-bool satisfies_triangle_rule(const Mat3d& inertia) {
-  const Vec3d i = principal_inertia(inertia).moments;
+bool satisfies_triangle_rule(const Vec3d& moments) {
+  const Vec3d& i = moments;
   const double slack = 1e-6 * (i[0] + i[1] + i[2]);
   return i[0] + i[1] >= i[2] - slack && i[1] + i[2] >= i[0] - slack && i[0] + i[2] >= i[1] - slack;
 }

@@ -52,7 +52,7 @@ MassProperties body_mass(const MassProperties& sum, const AuthoredMass& authored
                          CenterShift shift = CenterShift::ParallelAxis);
 
 /// Moments are positive (or all zero) and no one exceeds the sum of the others (S-45, M-19).
-bool satisfies_triangle_rule(const Mat3d& inertia);
+bool satisfies_triangle_rule(const Vec3d& moments);
 bool is_positive_definite(const Mat3d& inertia);
 
 }  // namespace tenon::physics

@@ -80,8 +80,8 @@ TEST(MassProperties, WithoutShapesABallGivesTheInertia) {
 
 // S-45, E-68
 TEST(MassProperties, TriangleRule) {
-  EXPECT_TRUE(satisfies_triangle_rule(diagonal_matrix({{1, 2, 3}})));
-  EXPECT_FALSE(satisfies_triangle_rule(diagonal_matrix({{1, 2, 30}})));
+  EXPECT_TRUE(satisfies_triangle_rule({{1, 2, 3}}));
+  EXPECT_FALSE(satisfies_triangle_rule({{1, 2, 30}}));
   EXPECT_FALSE(is_positive_definite(diagonal_matrix({{1, 2, 0}})));
 }
 

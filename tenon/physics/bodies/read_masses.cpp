@@ -35,8 +35,14 @@ std::optional<double> positive_number(const ReadState& state, const stage::Prim&
   return value;
 }
 
+/// What a mass API says about inertia, in the frame and units of the prim.
+struct AuthoredInertia {
+  Mat3d inertia;
+  Vec3d moments;  // principal ones
+};
+
 /// NewtonMassAPI: xx, yy, zz, xy, xz, yz about the centre of mass; overrides the diagonal.
-std::optional<Mat3d> newton_inertia(const ReadState& state, const PhysicsPrim& found) {
+std::optional<AuthoredInertia> newton_inertia(const ReadState& state, const PhysicsPrim& found) {
   if (!found.roles.has(Api::NewtonMass)) {
     return std::nullopt;
   }
@@ -53,10 +59,10 @@ std::optional<Mat3d> newton_inertia(const ReadState& state, const PhysicsPrim& f
   const layer::Array<double>& v = *six;
   Mat3d inertia;
   inertia.m = {{{v[0], v[3], v[4]}, {v[3], v[1], v[5]}, {v[4], v[5], v[2]}}};
-  return inertia;
+  return AuthoredInertia{inertia, principal_inertia(inertia).moments};
 }
 
-std::optional<Mat3d> diagonal_inertia(const ReadState& state, const PhysicsPrim& found) {
+std::optional<AuthoredInertia> diagonal_inertia(const ReadState& state, const PhysicsPrim& found) {
   const Token name = state.tokens.diagonal_inertia;
   const std::optional<Vec3d> diagonal = state.values.vector(found.prim, name);
   const std::optional<Quatd> axes = state.values.rotation(found.prim, state.tokens.principal_axes);
@@ -79,7 +85,8 @@ std::optional<Mat3d> diagonal_inertia(const ReadState& state, const PhysicsPrim&
       return std::nullopt;
     }
   }
-  return rotate_inertia(axes.value_or(kIdentityRotation), diagonal_matrix(*diagonal));
+  return AuthoredInertia{
+      rotate_inertia(axes.value_or(kIdentityRotation), diagonal_matrix(*diagonal)), *diagonal};
 }
 
 Mat3d in_si(Mat3d inertia, const Units& units) {
@@ -107,15 +114,15 @@ AuthoredMass read_authored(const ReadState& state, const PhysicsPrim& found, con
       !is_sentinel((*center)[2])) {
     authored.center = point_in_frame(*center, found.world, frame, state.units);  // S-44
   }
-  std::optional<Mat3d> inertia = newton_inertia(state, found);
+  std::optional<AuthoredInertia> inertia = newton_inertia(state, found);
   if (!inertia) {
     inertia = diagonal_inertia(state, found);
   }
   if (inertia) {
     const Quatd turn =
         conjugate(frame.orientation) * world_pose(found.world, state.units).orientation;
-    authored.inertia = rotate_inertia(turn, in_si(*inertia, state.units));
-    if (!satisfies_triangle_rule(*authored.inertia)) {
+    authored.inertia = rotate_inertia(turn, in_si(inertia->inertia, state.units));
+    if (!satisfies_triangle_rule(inertia->moments)) {
       // S-45
       state.report(found.prim, state.tokens.diagonal_inertia, Severity::Warning,
                    "mass.inertia-triangle",

@@ -37,7 +37,7 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
   group.inverted = values.authored_flag(found.prim, state.tokens.invert_groups).value_or(false);
   group.merge =
       values.get<std::string>(found.prim, state.tokens.merge_group).value_or(std::string());
-  for (const Path& target : found.prim.relationship(state.tokens.filtered_groups).targets()) {
+  for (const Path& target : state.targets(found.prim, state.tokens.filtered_groups)) {
     const auto named = std::lower_bound(paths.begin(), paths.end(), target);
     if (named == paths.end() || !(*named == target)) {
       // S-80

@@ -163,7 +163,7 @@ class PairFilter {
     const Token name = state_.tokens.filtered_pairs;
     const Colliders own = meant_by(found.path);
     speaks(PairRule::FilteredPair, found.path);
-    for (const Path& target : found.prim.relationship(name).targets()) {
+    for (const Path& target : state_.targets(found.prim, name)) {
       if (!state_.stage.prim(target)) {
         state_.values.report_target(found.prim, name, target, Severity::Warning,
                                     "filter.target-missing",
@@ -217,7 +217,7 @@ class PairFilter {
     Colliders sides[2];
     for (int side = 0; side < 2; ++side) {
       const Token name = side == 0 ? state_.tokens.body0 : state_.tokens.body1;
-      for (const Path& target : found.prim.relationship(name).targets()) {
+      for (const Path& target : state_.targets(found.prim, name)) {
         const std::uint32_t at = state_.walk.index_of(state_.walk.near(found, target));
         if (at != kNone && state_.walk.prims[at].is_body) {
           append(state_.body_of_prim[at], sides[side]);

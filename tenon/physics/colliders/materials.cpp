@@ -144,7 +144,7 @@ void bind_materials(ReadState& state) {
   if (state.scene.materials.empty()) {
     return;  // nothing that a binding could find
   }
-  stage::InheritedBindings bindings(Token("physics"));
+  stage::InheritedBindings bindings(Token("physics"), state.target_memo);
   bool bound = false;
   std::set<Path> told;
   for (Index i = 0; i < state.scene.colliders.size(); ++i) {

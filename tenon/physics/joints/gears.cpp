@@ -51,7 +51,7 @@ class GearReader {
 
  private:
   std::optional<Index> joint_named(const char* name, JointKind kind) const {
-    const std::vector<Path> targets = found_.prim.relationship(name).targets();
+    const std::vector<Path> targets = state_.targets(found_.prim, name);
     if (!targets.empty()) {
       const std::uint32_t joint = state_.joint_at(state_.walk.near(found_, targets.front()));
       if (joint != kNone && state_.scene.joints[joint].kind == kind) {

@@ -100,7 +100,7 @@ std::optional<JointSide> read_joint_side(const ReadState& state, const PhysicsPr
       state.values.rotation(joint, side == 0 ? tokens.local_rot0 : tokens.local_rot1)
           .value_or(kIdentityRotation);
   JointSide result;
-  const std::vector<Path> targets = joint.relationship(name).targets();
+  const std::vector<Path> targets = state.targets(joint, name);
   if (targets.empty()) {
     result.frame = {position * state.units.length, rotation};  // S-85
     return result;

@@ -72,7 +72,7 @@ class MimicReader {
 
  private:
   bool has_leader(const std::string& name) const {
-    return !found_.prim.relationship(name).targets().empty();
+    return !state_.targets(found_.prim, name).empty();
   }
 
   double number(const std::string& name, double fallback) const {
@@ -93,7 +93,7 @@ class MimicReader {
   /// mimics name; nullopt with a diagnostic when it is none that `dof` can follow.
   std::optional<Coordinate> leader(const std::string& name, Dof dof,
                                    std::optional<Token> rotation) const {
-    const std::vector<Path> targets = found_.prim.relationship(name).targets();
+    const std::vector<Path> targets = state_.targets(found_.prim, name);
     std::string why = name + " names no joint";
     if (!targets.empty()) {
       why = name + " names <" + targets.front().str() + ">, which is not a joint of one axis";

@@ -88,7 +88,7 @@ class TendonReader {
 
   /// The targets in the order of the path.
   bool read_order() {
-    const std::vector<Path> targets = found_.prim.relationship(tokens_.path).targets();
+    const std::vector<Path> targets = state_.targets(found_.prim, tokens_.path);
     std::vector<int> indices = whole(tokens_.indices);
     for (std::size_t i = 0; indices.empty() && i < targets.size(); ++i) {
       order_.push_back(targets[i]);
@@ -194,7 +194,7 @@ class TendonReader {
 
   bool read_stops() {
     side_indices_ = whole(tokens_.side_indices);
-    side_sites_ = found_.prim.relationship(tokens_.side_sites).targets();
+    side_sites_ = state_.targets(found_.prim, tokens_.side_sites);
     const std::vector<int> segments = whole(tokens_.segments);
     const std::vector<double> divisors = numbers_of(found_.prim, tokens_.divisors);
     if (!segments.empty() && segments.size() != order_.size()) {

@@ -46,10 +46,12 @@ std::uint32_t InheritedBindings::number_of(const Prim& prim, std::uint32_t above
       found.has_collections || std::any_of(names.begin(), names.end(), is_any_collection_binding);
   const auto take = [&](Token purpose, Winner& winner) {
     const Token name = direct_binding_name(purpose);
-    const std::optional<Path> material =
-        winner.is_stronger || !prim.has_property(name) ? std::nullopt : direct_material(prim, name);
+    if (winner.is_stronger || !prim.has_property(name)) {
+      return;
+    }
+    const Relationship binding = prim.relationship(name);
+    const std::optional<Path> material = direct_material(prim, targets_.targets(binding));
     if (material) {
-      const Relationship binding = prim.relationship(name);
       winner = {made_binding(prim, binding, *material), is_stronger(binding)};
     }
   };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tenon/stage/collections/material_binding.h"
+#include "tenon/stage/targets/target_memo.h"
 
 namespace tenon::stage {
 
@@ -14,7 +15,9 @@ namespace tenon::stage {
 /// meanwhile: what the prims above them bind is looked at once.
 class InheritedBindings {
  public:
-  explicit InheritedBindings(Token purpose) : purpose_(purpose) { found_.emplace_back(); }
+  InheritedBindings(Token purpose, TargetMemo& targets) : purpose_(purpose), targets_(targets) {
+    found_.emplace_back();
+  }
 
   MaterialBinding find(const Prim& prim);
 
@@ -33,6 +36,7 @@ class InheritedBindings {
   std::uint32_t number_of(const Prim& prim, std::uint32_t above);
 
   Token purpose_;
+  TargetMemo& targets_;
   std::vector<Found> found_;                           // the first is that of no binding at all
   std::unordered_map<Path, std::uint32_t> number_at_;  // of found_, for prims with others below
   std::vector<Prim> chain_;

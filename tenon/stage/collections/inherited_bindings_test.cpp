@@ -68,7 +68,8 @@ TEST(InheritedBindings, AreThoseOfEachPrimByItself) {
               {"part", "def Material \"M\" {}\ndef Xform \"W\" {\n" +
                            random_tree(random, 2, collections) + "}\n"}});
     for (const char* purpose : {"physics", "", "full"}) {
-      InheritedBindings fast{Token(purpose)};
+      TargetMemo targets;
+      InheritedBindings fast{Token(purpose), targets};
       int bound = 0;
       expect_same_below(stage.pseudo_root(), fast, Token(purpose), bound);
       EXPECT_GT(bound, 0) << round;

@@ -75,7 +75,7 @@ struct Search {
     const Token name = direct_binding_name(purpose);
     if (at.has_property(name)) {
       const Relationship binding = at.relationship(name);
-      const std::optional<Path> material = direct_material(at, name);
+      const std::optional<Path> material = direct_material(at, binding.targets());
       if (material && (found.material.empty() || is_stronger(binding))) {
         take(at, binding, *material);
         direct_here = true;
@@ -130,8 +130,7 @@ bool is_stronger(const Relationship& binding) {
   return binding.metadata(how).get_or<Token>(Token()) == stronger;
 }
 
-std::optional<Path> direct_material(const Prim& at, Token name) {
-  const std::vector<Path> targets = at.relationship(name).targets();
+std::optional<Path> direct_material(const Prim& at, const std::vector<Path>& targets) {
   return targets.size() == 1 && is_material(at, targets[0]) ? std::optional(targets[0])
                                                             : std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include "tenon/layer/expressions/path_expression.h"
 #include "tenon/stage/composed_fields.h"
 #include "tenon/stage/property_facts.h"
+#include "tenon/stage/targets/composed_targets.h"
 
 namespace tenon::stage {
 namespace {

@@ -374,6 +374,7 @@ class PropertyReader {
     spec_ = &state_.layer.create(path_, SpecKind::Relationship);
     if (spec_->line == 0) {
       note_new_property();
+      spec_->reserve_fields(head_.is_custom ? 3 : 2);  // with its targets; most have no more
     } else if (spec_->kind != SpecKind::Relationship) {
       return cursor_.fail_at(start_, ErrorCode::Parse, "text.duplicate",
                              "`" + path_.name().str() + "` is already an attribute; it was " +
