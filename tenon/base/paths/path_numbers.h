@@ -58,7 +58,7 @@ class PathNumbers {
   }
 
  private:
-  static constexpr std::size_t kFewest = 16;
+  static constexpr std::size_t kFewest = 64;
 
   /// Fuller, paths are looked for in many slots where others pile up.
   static bool is_full_with(std::size_t count, std::size_t slot_count) {
