@@ -3,6 +3,7 @@
 """Inputs of the benchmarks that are no scenes of make_scenes: what ../shared has, put to use."""
 
 import os
+import random
 import subprocess
 import sys
 
@@ -22,17 +23,22 @@ ROBOT = """    def Xform "Robot_{number}" (
     )
     {{
         double3 xformOp:translate = ({x}, {y}, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
+{turn}        uniform token[] xformOpOrder = [{order}]
     }}
 """
 
 
-def write_robots(path, asset, count):
-    """`count` instances of the asset's default prim, in rows of 8."""
+def write_robots(path, asset, count, turned=False):
+    """`count` instances of the asset's default prim, in rows of 8; `turned`: each otherwise."""
+    order = ["xformOp:translate"] + ["xformOp:rotateXYZ"] * turned
+    dice = random.Random(3)
     with open(path, "w", encoding="utf-8") as file:
         file.write(ROBOTS)
         for number in range(count):
-            file.write(ROBOT.format(number=number, asset=asset, x=number % 8, y=number // 8))
+            degrees = ", ".join(f"{dice.uniform(-180, 180):.3f}" for _ in range(3))
+            turn = f"        float3 xformOp:rotateXYZ = ({degrees})\n" if turned else ""
+            file.write(ROBOT.format(number=number, asset=asset, x=number % 8, y=number // 8,
+                                    turn=turn, order=", ".join(f'"{op}"' for op in order)))
         file.write("}\n")
 
 

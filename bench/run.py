@@ -148,11 +148,13 @@ class Bench:
             for name in ("prims", "physics", "mesh"):
                 files = [self.scene(name + suffix) for suffix in (".usda", ".usdc")]
                 run_lines([*PEER, "convert", *files])
-        self.robots = {}
+        self.robots, self.turned_robots = {}, {}
         for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
             if os.path.exists(file):
                 self.robots[name] = self.scene(f"robots_{name}.usda")
+                self.turned_robots[name] = self.scene(f"turned_{name}.usda")
                 inputs.write_robots(self.robots[name], file, 2 if size else 64)
+                inputs.write_robots(self.turned_robots[name], file, 2 if size else 64, turned=True)
         suite = self.scene("composition_suite.txt")
         found = os.path.exists(CONFORMANCE) and inputs.write_suite_list(
             suite, CONFORMANCE, 6 if size else None)
@@ -289,9 +291,10 @@ def workloads(bench):
     yield Workload("read_physics", [program("read_physics"), scene("physics.usda")],
                    ["physics", scene("physics.usda")],
                    [("open", "open", ""), ("physics", "physics", "")])
-    for name, file in bench.robots.items():
-        yield Workload(f"physics_{name}", [program("read_physics"), file], ["physics", file],
-                       [("physics", "physics", "")])
+    for kind, robots in (("physics", bench.robots), ("physics_turned", bench.turned_robots)):
+        for name, file in robots.items():
+            yield Workload(f"{kind}_{name}", [program("read_physics"), file], ["physics", file],
+                           [("physics", "physics", "")])
     triangles = "2000" if bench.arguments.smoke else "1000000"
     yield Workload("mesh_mass", [program("mesh_mass"), triangles], None,
                    [(phase, phase, "") for phase in ("copy", "closed", "integrals")])
