@@ -41,7 +41,7 @@ class NumberedStore {
  private:
   static constexpr std::uint32_t kBlock = 1u << 13u;
 
-  std::byte* blocks_[(std::size_t{1} << 32u) / kBlock] = {};
+  std::byte* blocks_[static_cast<std::size_t>((std::uint64_t{1} << 32u) / kBlock)] = {};
 };
 
 }  // namespace tenon

@@ -31,7 +31,9 @@ class LikeOrMany {
   }
   ~LikeOrMany() { clear(); }
 
-  std::size_t size() const { return at_ == nullptr ? 0 : is_like() ? 1 : block()->count; }
+  std::size_t size() const {
+    return at_ == nullptr ? 0 : is_like() ? 1 : static_cast<std::size_t>(block()->count);
+  }
   bool empty() const { return at_ == nullptr; }
 
   /// What its one element is like; null where the elements are its own.

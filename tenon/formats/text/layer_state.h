@@ -70,7 +70,7 @@ struct LayerState {
                                            layer::Variability variability) {
     const auto more = (custom ? 1u : 0u) | (variability == layer::Variability::Uniform ? 2u : 0u);
     Declared& last =
-        declared_[(std::hash<Token>{}(type_name) >> 32u << 2u | more) & (declared_.size() - 1)];
+        declared_[(std::hash<Token>{}(type_name) >> 16u << 2u | more) & (declared_.size() - 1)];
     if (last.fields.id() == nullptr || last.type_name != type_name || last.custom != custom ||
         last.variability != variability) {
       layer::FieldList fields;
