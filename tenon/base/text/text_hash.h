@@ -9,16 +9,37 @@
 
 namespace tenon {
 
+/// The two halves of the product of 128 bits, one over the other.
+inline std::uint64_t folded_product_in_parts(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kLow = 0xFFFFFFFFu;
+  const std::uint64_t low = (a & kLow) * (b & kLow);
+  const std::uint64_t cross = (a & kLow) * (b >> 32u);
+  const std::uint64_t other = (a >> 32u) * (b & kLow);
+  const std::uint64_t middle = (low >> 32u) + (cross & kLow) + (other & kLow);
+  const std::uint64_t high =
+      (a >> 32u) * (b >> 32u) + (cross >> 32u) + (other >> 32u) + (middle >> 32u);
+  return (a * b) ^ high;
+}
+
+/// The same in one multiplication where the machine has one.
+inline std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
+#ifdef __SIZEOF_INT128__
+  __extension__ using Wide = unsigned __int128;
+  const Wide product = static_cast<Wide>(a) * b;
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64u);
+#else
+  return folded_product_in_parts(a, b);
+#endif
+}
+
 /// A hash of a short text, eight bytes at a time: each is multiplied with what came before to 128
 /// bits, of which both halves count, so that all bits of it are as good as each other. Not for
 /// storage: it depends on the order of bytes in the machine.
 inline std::uint64_t text_hash(std::string_view text) {
-  __extension__ using Wide = unsigned __int128;
   constexpr std::uint64_t kStart = 0x9E3779B97F4A7C15u;   // digits of the golden ratio
   constexpr std::uint64_t kFactor = 0xD1B54A32D192ED03u;  // odd, bits as if thrown
   const auto mix = [](std::uint64_t before, std::uint64_t more) {
-    const Wide product = static_cast<Wide>(before ^ more) * kFactor;
-    return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64u);
+    return folded_product(before ^ more, kFactor);
   };
   const char* const at = text.data();
   const std::size_t size = text.size();

@@ -59,5 +59,22 @@ TEST(TextHash, NumberedNamesAreScattered) {
   }
 }
 
+TEST(TextHash, ProductsAreTheSameInParts) {
+  const std::uint64_t numbers[] = {0,
+                                   1,
+                                   0xFFFFFFFFu,
+                                   0x100000000u,
+                                   0x123456789ABCDEFu,
+                                   0x9E3779B97F4A7C15u,
+                                   0xD1B54A32D192ED03u,
+                                   ~std::uint64_t{0}};
+  for (const std::uint64_t a : numbers) {
+    for (const std::uint64_t b : numbers) {
+      EXPECT_EQ(folded_product(a, b), folded_product_in_parts(a, b)) << a << " " << b;
+    }
+  }
+  EXPECT_EQ(folded_product(~std::uint64_t{0}, ~std::uint64_t{0}), ~std::uint64_t{0});
+}
+
 }  // namespace
 }  // namespace tenon
