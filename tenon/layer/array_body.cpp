@@ -10,7 +10,7 @@ namespace tenon::layer {
 namespace {
 
 /// Elements behind the body.
-struct OwnElements final : ArrayBody {
+struct alignas(8) OwnElements final : ArrayBody {
   OwnElements(std::size_t n, Equal e) : ArrayBody(this + 1, n, e) {}
   static void operator delete(void* memory) { ::operator delete(memory); }
 };

@@ -16,7 +16,7 @@ namespace {
 std::size_t fullest(const std::vector<std::string>& texts, unsigned shift, std::size_t size) {
   std::vector<std::size_t> counts(size);
   for (const std::string& text : texts) {
-    ++counts[(text_hash(text) >> shift) % size];
+    ++counts[static_cast<std::size_t>(text_hash(text) >> shift) % size];
   }
   return *std::max_element(counts.begin(), counts.end());
 }

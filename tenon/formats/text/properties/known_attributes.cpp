@@ -14,7 +14,7 @@ namespace {
 /// A head stands in one of two places.
 std::array<std::size_t, 2> places_of(std::string_view head, std::size_t slots) {
   const std::uint64_t hash = text_hash(head);
-  return {hash % slots, (hash >> 32u) % slots};
+  return {static_cast<std::size_t>(hash % slots), static_cast<std::size_t>((hash >> 32u) % slots)};
 }
 
 }  // namespace
