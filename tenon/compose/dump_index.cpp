@@ -124,7 +124,7 @@ class Dump {
   }
 
   void time_offsets(const PrimIndex& index) {
-    const bool any = std::any_of(index.nodes().begin(), index.nodes().end(), [](const Node& node) {
+    const bool any = std::ranges::any_of(index.nodes(), [](const Node& node) {
       return !node.map_to_parent->offset().is_identity() || node.layer_stack->has_offsets;
     });
     if (!any) {

@@ -122,7 +122,7 @@ bool build_local_child(const IndexServices& services, const PrimIndex& parent, P
 bool build_child_below_arcs(const IndexServices& services, const PrimIndex& parent,
                             PrimIndex& index) {
   const Nodes nodes = parent.nodes();
-  if (parent.instanceable || !std::all_of(nodes.begin(), nodes.end(), goes_deeper_alone)) {
+  if (parent.instanceable || !std::ranges::all_of(nodes, goes_deeper_alone)) {
     return false;
   }
   NodeGraph graph(*services.maps, *services.work);

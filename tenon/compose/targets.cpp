@@ -183,7 +183,7 @@ class TargetCombiner {
       return false;
     }
     const PrimIndex& there = cache_->index(target.prim());
-    return std::any_of(there.nodes().begin(), there.nodes().end(), [&](const Node& other) {
+    return std::ranges::any_of(there.nodes(), [&](const Node& other) {
       return other.arc == ArcKind::Inherit && other.layer_stack == node.layer_stack &&
              other.path.has_prefix(the_class);
     });

@@ -51,11 +51,9 @@ std::vector<Token> sorted(std::vector<Token> names) {
 bool same_composition(const PrimData& a, const PrimData& b) {
   const compose::PrimIndex& x = *a.index;
   const compose::PrimIndex& y = *b.index;
-  const compose::Nodes a_nodes = x.nodes();
-  const compose::Nodes b_nodes = y.nodes();
   return a.type_name() == b.type_name() && a.specifier == b.specifier && a.active == b.active &&
          a.loaded == b.loaded && x.extras().instance_key == y.extras().instance_key &&
-         std::equal(a_nodes.begin(), a_nodes.end(), b_nodes.begin(), b_nodes.end(), same_node) &&
+         std::ranges::equal(x.nodes(), y.nodes(), same_node) &&
          std::ranges::equal(x.opinions(), y.opinions(), same_opinion) &&
          a.definition->applied() == b.definition->applied();
 }

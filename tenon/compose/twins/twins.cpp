@@ -26,7 +26,7 @@ constexpr std::size_t kMostLooks = 256;    // of one prim, more are not kept
 bool may_have_twins(const PrimIndex& index) {
   const auto relocates = [](const Node& node) { return node.layer_stack->has_relocates(); };
   return index.nodes().size() > 1 && !index.instanceable && index.extras().errors.empty() &&
-         std::none_of(index.nodes().begin(), index.nodes().end(), relocates);
+         std::ranges::none_of(index.nodes(), relocates);
 }
 
 bool are_twins(const LayerStack& root_stack, const PrimIndex& a, const PrimIndex& b) {
@@ -161,7 +161,7 @@ bool Twins::may_be_kept(const IndexServices& services, const PrimIndex& index) {
     return node.map_to_parent->pairs().size() <= kFewPairs &&
            node.map_to_root->pairs().size() <= kFewPairs;
   };
-  return std::all_of(index.nodes().begin(), index.nodes().end(), has_few_pairs) &&
+  return std::ranges::all_of(index.nodes(), has_few_pairs) &&
          index.extras().errors.empty() && index.extras().prohibited_child_names.empty() &&
          !services.work->exhausted() && *services.node_count < services.options->max_nodes;
 }

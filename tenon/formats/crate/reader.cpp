@@ -170,9 +170,8 @@ class LayerBuilder {
       if (row.kind == SpecKind::None) {
         continue;
       }
-      number += row.kind == SpecKind::PseudoRoot ? 0 : 1;
-      layer::Spec& spec =
-          row.kind == SpecKind::PseudoRoot ? layer_.root() : layer_.numbered_spec(number);
+      const bool is_root = row.kind == SpecKind::PseudoRoot;
+      layer::Spec& spec = is_root ? layer_.root() : layer_.numbered_spec(++number);
       spec.set_field_list(checked_[row.field_set] == SetForm::InTable
                               ? table->list(row.field_set)
                               : own_lists_.at(row.field_set));
