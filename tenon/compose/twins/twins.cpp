@@ -161,9 +161,9 @@ bool Twins::may_be_kept(const IndexServices& services, const PrimIndex& index) {
     return node.map_to_parent->pairs().size() <= kFewPairs &&
            node.map_to_root->pairs().size() <= kFewPairs;
   };
-  return std::ranges::all_of(index.nodes(), has_few_pairs) &&
-         index.extras().errors.empty() && index.extras().prohibited_child_names.empty() &&
-         !services.work->exhausted() && *services.node_count < services.options->max_nodes;
+  return std::ranges::all_of(index.nodes(), has_few_pairs) && index.extras().errors.empty() &&
+         index.extras().prohibited_child_names.empty() && !services.work->exhausted() &&
+         *services.node_count < services.options->max_nodes;
 }
 
 /// False where something below the twin is of this twin alone, or could be taken for it.
