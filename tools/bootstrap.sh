@@ -104,7 +104,8 @@ need_for_judge() {
   need_package libclang-rt-19-dev
   if [ "$(dpkg --print-architecture)" = amd64 ]; then # of the preset bits32
     need_package g++-multilib
-    for library in liblz4-dev libqhull-dev libpugixml-dev libgtest-dev libmeshoptimizer-dev zlib1g; do
+    for library in liblz4-dev libqhull-dev libpugixml-dev libgtest-dev libmeshoptimizer-dev \
+                   zlib1g; do
       need_package "$library:i386"
     done
   fi
