@@ -7,6 +7,7 @@ import os
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 import check_answers
 import check_classes
@@ -17,6 +18,7 @@ import check_outputs
 import check_sizes
 import check_snippets
 import check_text
+import tidy
 
 RULE = "base :\nlayer : base\nengines : base\nengines/mujoco : base engines\ntenon : base layer\n"
 RULE += "engines tests : layer\n"
@@ -346,6 +348,40 @@ class Text(unittest.TestCase):
         ]:
             with self.subTest(path=path, text=text[-40:]):
                 self.assertTrue(self.faults(path, text))
+
+
+class Tidy(unittest.TestCase):
+    """What `--changed` takes for a change of code, which is judged again."""
+    CODE = 'int a() { return 1; }  // one\n'
+
+    def test_comments_alone(self):
+        for other in ("/* 1 */ int a() { return 1; }\n",
+                      "// What it does,\n// and why.\nint a() {\n  return 1;\n}\n"):
+            with self.subTest(other=other):
+                self.assertEqual(tidy.code_of(self.CODE), tidy.code_of(other))
+
+    def test_code(self):
+        cases = [
+            (self.CODE, "int a() { return 2; }  // one\n"),
+            (self.CODE, "int a() { return 1; }  // NOLINT(some-check)\n"),
+            ('f("//one");', 'f("//two");'),
+            ('f(R"x(a)" // 1)x");', 'f(R"x(a)" // 2)x");'),
+            ("f('\"', 1);  // it's", "f('\"', 2);  // it's"),
+            ("f(1'000'000, \"//1\");", "f(1'000'000, \"//2\");"),
+            ("f(/* 1 */ 1);", "f(/* 1 */ 2);"),
+        ]
+        for before, after in cases:
+            with self.subTest(before=before):
+                self.assertNotEqual(tidy.code_of(before), tidy.code_of(after))
+
+    def test_names(self):
+        """A file that the commit has as it is, one whose text is gone, and one that is new."""
+        name = "tools/tidy.py"
+        with open(os.path.join(tidy.ROOT, name), encoding="utf-8") as file:
+            commits = {"same": file.read(), "other": "int a;\n", "new": None}
+        with mock.patch.object(tidy, "git", lambda _, at: commits[at.split(":")[0]]):
+            changed = [commit for commit in commits if tidy.has_changed_code(name, commit)]
+        self.assertEqual(changed, ["other", "new"])
 
 
 if __name__ == "__main__":

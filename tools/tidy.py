@@ -26,6 +26,10 @@ ROOT = source_files.ROOT
 RECORD = os.path.join(ROOT, "tools/tidied.txt")
 DATABASE = os.path.join(ROOT, "build/tidy")
 FOLDERS = ("tenon/", "cli/", "worker/")
+# A comment, or text that may hold what looks like one: raw text, text, a character.
+COMMENT = re.compile(r"//(?:\\\n|[^\n])*|/\*.*?\*/"
+                     r'|R"([^()\\\s]*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"'
+                     r"|(?<![0-9a-fA-F])'(?:[^'\\\n]|\\.)+'", re.DOTALL)
 FINDING = re.compile(r"^(?P<file>/[^:]+):\d+:\d+: (?:error|warning): ")
 # The database is of the compiler that is there, whose options clang need not know.
 MORE = ["--extra-arg=-Wno-unknown-warning-option", "--extra-arg=-Wno-pragma-once-outside-header"]
@@ -60,6 +64,21 @@ def changed_since(commit):
     tracked = git("diff", "--name-only", commit, "--")
     new = git("ls-files", "--others", "--exclude-standard")
     return None if tracked is None or new is None else sorted(set((tracked + new).splitlines()))
+
+
+def code_of(text):
+    """The words of a C++ file without its comments and line breaks; NOLINT comments stay."""
+    def kept(found):
+        word = found.group(0)
+        return " " if word[:2] in ("//", "/*") and "NOLINT" not in word else word
+    return COMMENT.sub(kept, text).split()
+
+
+def has_changed_code(name, commit):
+    """Whether the code of a file differs from a commit, where it may be missing."""
+    before = git("show", f"{commit}:{name}")
+    with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+        return before is None or code_of(before) != code_of(file.read())
 
 
 def configure():
@@ -105,7 +124,8 @@ def chosen(options):
         if changed is None:
             print(f"skipped: commit {recorded()} of tools/tidied.txt is not in this clone")
             return None
-        return [name for name in names if name in set(changed)]
+        return [name for name in names
+                if name in set(changed) and has_changed_code(name, recorded())]
     # Headers are seen with the sources.
     return names if options.files else [name for name in names if name.endswith(".cpp")]
 
