@@ -9,7 +9,7 @@
 
 namespace tenon {
 
-/// "NAME=VALUE" taken apart at the first '='. Errors: Invalid, without a '=' or without a name.
+/// "NAME=VALUE" split at the first '='. Errors: Invalid, without a '=' or without a name.
 Result<std::pair<std::string, std::string>> split_assignment(const std::string& text);
 
 }  // namespace tenon

@@ -14,9 +14,9 @@ enum class Severity : std::uint8_t { Info, Warning, Error };
 /// "info", "warning" or "error".
 std::string_view severity_name(Severity severity);
 
-/// The part of a statement of a layer that a finding is about, named by what it says. Where it
-/// stands in the text is looked up when the finding is shown (tenon/formats/find_places.h), so that
-/// layers keep one place for each spec and none for its parts.
+/// The part of a layer's statement that a finding is about, named by its content. Its place in the
+/// text is looked up when the finding is shown (tenon/formats/find_places.h), so that layers keep
+/// one place for each spec and none for its parts.
 struct StatementPart {
   std::string spec;   ///< path of the prim or property in its layer; empty: nothing to look up
   std::string field;  ///< "references", "apiSchemas", as layers name it; empty: all of the spec
@@ -53,7 +53,7 @@ struct Diagnostic {
   Diagnostic& operator=(Diagnostic&& other) noexcept;
   ~Diagnostic();
 
-  /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, unknown parts left out.
+  /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, without the unknown parts.
   std::string to_string() const;
 
   bool operator==(const Diagnostic&) const = default;

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-/// Which numbers are enumerators, told by the compiler. Enumerators lie below kMaxEnumerators.
+/// Which numbers are enumerators, told by the compiler. They are less than kMaxEnumerators.
 namespace tenon::wire {
 
 inline constexpr std::size_t kMaxEnumerators = 32;

@@ -13,7 +13,7 @@ struct Diagnostic;
 /// The fields of plain structs, found by the compiler: nobody lists them, so none is forgotten.
 namespace tenon::wire {
 
-/// Stands for a value of any field.
+/// A placeholder that converts to any field's type.
 struct AnyField {
   template <class T>
   operator T() const noexcept;  // NOLINT(google-explicit-constructor): never called

@@ -19,7 +19,7 @@
 namespace tenon {
 namespace {
 
-/// Targets stand below properties that are elements, hardly ever.
+/// Targets hardly ever follow properties that are elements.
 bool may_hold_targets(PathKind kind) {
   return kind != PathKind::AbsoluteRoot && kind != PathKind::RelativeRoot &&
          kind != PathKind::Prim && kind != PathKind::VariantSelection;

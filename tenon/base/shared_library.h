@@ -15,8 +15,8 @@ class SharedLibrary {
   /// when it is opened; or when made, which is faster for large libraries.
   enum class Binding : unsigned char { Now, Lazy };
 
-  /// The first of `files` that can be opened: a path, or a name that the system looks for. An empty
-  /// one is passed over.
+  /// The first of `files` that can be opened: a path, or a name that the system looks for. Empty
+  /// names are skipped.
   static SharedLibrary open(const std::vector<std::string>& files, Binding binding = Binding::Now);
 
   explicit operator bool() const { return handle_ != nullptr; }
@@ -41,8 +41,8 @@ class SharedLibrary {
 std::string folder_of_this_code();
 
 /// Where an installed library keeps one of its own: the file of that name in the folder "tenon"
-/// beside this code, absolute; the name alone where there is none. By its path a library is another
-/// one than that of somebody else in the process who has the name.
+/// beside this code, absolute; the name alone where there is none. A path keeps it apart from
+/// another library of the same name in the process.
 std::string own_library(const std::string& name);
 
 }  // namespace tenon

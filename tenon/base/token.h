@@ -35,7 +35,7 @@ class Token {
   std::string_view view() const { return text_->text; }
   bool empty() const { return text_->text.empty(); }
   const void* id() const { return text_; }
-  /// What stands for the token in four bytes; never 0.
+  /// The token as a number of four bytes; never 0.
   std::uint32_t number() const { return text_->number; }
   static Token numbered(std::uint32_t number) { return Token(&texts_[number]); }
 

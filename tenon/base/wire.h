@@ -156,7 +156,7 @@ void encode(Sink& sink, const T& value) {
   }
 }
 
-/// Reads values from bytes of a stranger. After the first fault nothing more is read.
+/// Reads values from untrusted bytes. After the first fault nothing more is read.
 class Decoder {
  public:
   explicit Decoder(std::string_view bytes) : rest_(bytes) {}

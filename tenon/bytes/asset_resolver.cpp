@@ -234,8 +234,8 @@ Result<std::shared_ptr<const FileBytes>> AssetResolver::open(const std::string& 
   TENON_CHECK(check_sandbox(split_package_path(identifier).package));
   FileRules rules;
   if (!options_.roots.empty()) {
-    // Once more when it is open: the path may name another file by then. Files of strangers, who
-    // may shorten them, are not mapped.
+    // Checked again once it is open: the path may name another file by then. Third-party files,
+    // which others may shorten, are not mapped.
     rules.check = [this](const std::string& real) { return check_real_path(real); };
     rules.may_map = false;
     rules.max_bytes = limits::kCopiedFileBytes;

@@ -21,7 +21,7 @@ namespace tenon::bytes {
 
 struct PackagePath {
   std::string package;  ///< the outer file
-  std::string inner;    ///< what stands in the brackets; empty for a path without any
+  std::string inner;    ///< the part in brackets; empty for a path without any
 };
 /// Splits at the outermost brackets.
 PackagePath split_package_path(std::string_view path);
@@ -41,8 +41,8 @@ struct ResolverOptions {
   Files files = {};  ///< where all of them are looked up
 };
 
-/// `path` without what stands around a file's name: a `file:` URI becomes a path, arguments of the
-/// file format (":SDF_FORMAT_ARGS:...") are left out; they change nothing for layers of USD.
+/// `path` as a plain file name: a `file:` URI becomes a path; file format arguments
+/// (":SDF_FORMAT_ARGS:...") are removed, since they change nothing for layers of USD.
 std::string plain_asset_path(const std::string& path);
 
 /// "./x.usda" and "../x.usda" are taken from the anchor's folder; "x.usda" too, then from the

@@ -22,7 +22,7 @@ std::vector<std::string> roots_of_asset(const Files& files, const std::string& p
 std::optional<std::string> ros_package_of(const Files& files, const std::string& folder);
 /// Whether the folder has a package.xml of ROS.
 bool is_ros_package(const Files& files, const std::string& folder);
-/// The text of a folder's package.xml; none where there is none of up to kPackageXmlBytes.
+/// The text of a folder's package.xml; null where it is missing or larger than kPackageXmlBytes.
 std::shared_ptr<const FileBytes> package_xml_of(const Files& files, const std::string& folder);
 
 /// The folder to which robot formats by custom give `file`, a part of the description at `path`:

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file is opened once, and what is asked about it afterwards, its real path, its kind and size,
-// is asked of the open file: a name may lead elsewhere by then. Devices, which do something when
-// they are opened, are told before. Small files are read, since mapping costs more than it saves.
+// A file is opened once; its real path, kind and size are then taken from the open file, since the
+// name may lead elsewhere by then. Devices, which do something when they are opened, are detected
+// before. Small files are read, since mapping costs more than it saves.
 #include "tenon/bytes/file_bytes.h"
 
 #include <algorithm>

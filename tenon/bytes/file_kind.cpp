@@ -150,7 +150,7 @@ std::string_view without_byte_order(std::string_view text) {
   return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
-/// What may stand in front of what says which kind a text is: a comment and the like.
+/// Text that may precede the part that identifies a file's kind: a comment and the like.
 struct Aside {
   std::string_view begin;
   std::string_view end;

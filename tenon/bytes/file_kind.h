@@ -41,7 +41,7 @@ Error not_read(const std::string& path, Error error);
 Error not_media(const std::string& path);
 /// The same: `path` is no layer and no package.
 Error not_a_layer(const std::string& path);
-/// Invalid, rule kUnreadableRule: the characters of `path` cannot stand in an asset path.
+/// Invalid, rule kUnreadableRule: the characters of `path` are not allowed in an asset path.
 Error not_nameable(const std::string& path);
 
 }  // namespace tenon::bytes

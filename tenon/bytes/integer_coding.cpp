@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading is safe by two checks up front. The count is held against the most that so many
-// compressed bytes can make before anything is allocated, and the codes are summed up to the length
+// Reading is safe by two checks up front. The count is compared with the maximum that so many
+// compressed bytes can hold before anything is allocated, and the codes are summed up to the length
 // of the tail that they need, so that the stream reads on without checks. Writing takes the
 // commonest difference, the largest of several, so one list has one encoding. Each difference is
 // stored in full width, and the end moves on by the width that it needs: little-endian numbers
@@ -157,8 +157,7 @@ bool are_steps_of(const T* integers, Unsigned before, Unsigned step) {
 }  // namespace
 
 std::uint64_t max_integer_count(std::uint64_t compressed_size) {
-  // One byte of codes stands for four integers. A product that wraps stands for a file larger
-  // than any.
+  // One byte of codes covers four integers. A product that wraps means a file larger than any.
   return compressed_size * limits::kDecompressionRatio * 4;
 }
 
@@ -195,7 +194,7 @@ Result<IntegerStream<T>> IntegerStream<T>::open(std::span<const std::byte> compr
     return too_short();
   }
   if (const std::size_t last = size % kGroup; last != 0) {
-    char& code = data[sizeof(T) + codes - 1];  // its upper bits stand for nothing
+    char& code = data[sizeof(T) + codes - 1];  // its upper bits are unused
     code = static_cast<char>(static_cast<unsigned char>(code) & ((1u << (2 * last)) - 1));
   }
   if (data.size() - sizeof(T) - codes <

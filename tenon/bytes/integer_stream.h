@@ -55,7 +55,7 @@ class IntegerStream {
     }
     return group_[at_++];
   }
-  /// The next ones, as many as `out` has room for: a multiple of four, but for the last ones.
+  /// The next ones, as many as `out` has room for: a multiple of four, except for the last ones.
   /// `next` must not have been called before.
   void read(std::span<T> out) {
     std::size_t at = 0;
@@ -70,7 +70,7 @@ class IntegerStream {
  private:
   static constexpr std::size_t kGroup = 4;  // integers of one byte of codes
 
-  /// The bytes after the codes that one byte of them stands for.
+  /// The length of the tail that one byte of codes describes.
   static constexpr std::size_t tail_of(unsigned codes) {
     std::size_t size = 0;
     for (std::size_t i = 0; i < kGroup; ++i) {
@@ -107,7 +107,7 @@ class IntegerStream {
     return static_cast<Unsigned>(static_cast<typename W::Signed>(stored));
   }
 
-  std::unique_ptr<const std::string> data_;  // unpacked; at one place, whoever holds it
+  std::unique_ptr<const std::string> data_;  // unpacked; its address survives a move of this object
   const char* codes_ = nullptr;
   const char* tail_ = nullptr;
   Unsigned common_ = 0;

@@ -9,8 +9,9 @@
 
 namespace tenon::bytes {
 
-/// Assets in repositories are often missing in a clone: a small text of Git LFS stands in their
-/// place (its specification, version 1). ErrorCode::NotFound with rule "file.lfs-pointer" for one.
+/// Assets in repositories are often missing in a clone: a small text file of Git LFS is there
+/// instead (its specification, version 1). ErrorCode::NotFound with rule "file.lfs-pointer" for
+/// one.
 inline Result<void> check_no_lfs_pointer(std::string_view contents, const std::string& path) {
   if (!contents.starts_with("version https://git-lfs.github.com/spec/")) {
     return {};

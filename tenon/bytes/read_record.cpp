@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A file is remembered by its identity, its times and, where asked for, a digest of its contents.
-// Times tell most changes for nothing; the digest tells a file that was written anew with the same
-// bytes from one that was changed. One lock guards the record, because files are read by several
-// threads.
+// Times tell most changes for free; the digest tells a file that was rewritten with the same bytes
+// from one that was changed. One lock guards the record, because files are read by several threads.
 #include "tenon/bytes/read_record.h"
 
 #include <atomic>
@@ -33,7 +32,7 @@ Error changed_error(const std::string& path) {
       .with_fix("nothing was written; run the command again");
 }
 
-/// The digest of what stands in the file now; nothing when it cannot be read.
+/// The digest of the file's current contents; nothing when it cannot be read.
 std::optional<std::uint64_t> digest_of_file(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {

@@ -65,7 +65,7 @@ class ReadRecord {
   void note(const std::string& path);
   /// `path` was asked for and is not there, or cannot be opened.
   void note_missing(const std::string& path);
-  /// Starts anew: what follows is read again.
+  /// Clears the record, before everything is read again.
   void clear();
 
   bool has(const FileIdentity& file) const;
@@ -76,7 +76,7 @@ class ReadRecord {
   /// Error with rule "file.changed" when a file that was read is no longer what it was then. Files
   /// in `by_content` are read again to know.
   Result<void> check_unchanged(const std::set<FileIdentity>& by_content) const;
-  /// The run has itself replaced these files: what stands there now counts as read.
+  /// The run has itself replaced these files: their new contents count as read.
   void refresh(const std::set<FileIdentity>& replaced);
 
  private:
@@ -94,8 +94,8 @@ void note_read(const std::string& path);
 /// Notes what was asked for and is not there. Nothing happens where no record is installed.
 void note_missing(const std::string& path);
 
-/// True for the Error of a file that was changed by somebody else since it was read: who reads it
-/// again and repeats the edit loses nothing.
+/// True for the Error of a file that was changed by somebody else since it was read: the caller can
+/// read it again and repeat the edit without losing anything.
 bool is_changed_meanwhile(const Error& error);
 
 }  // namespace tenon::bytes

@@ -19,7 +19,7 @@ std::uint64_t int_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// Counts that stand in front of what they count, as unsigned numbers of four bytes.
+/// Counts before the data that they count, as unsigned numbers of four bytes.
 template <std::size_t N>
 std::optional<std::array<std::uint64_t, N>> counts_of(std::string_view bytes) {
   if (bytes.size() < 4 * N) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Edits are applied to numbers that stand for elements, whatever their type; the elements are put
-// together once, at the end: those of all types of numbers as bytes.
+// Edits are applied to the indices of elements, whatever their type; the elements are put together
+// once, at the end: those of all types of numbers as bytes.
 #include "tenon/layer/array_edit.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace tenon::layer {
 namespace {
 
-/// Stands for an element of a weaker array, of an edit's literals, or for zero.
+/// An element of a weaker array, of an edit's literals, or zero.
 struct Source {
   static constexpr std::uint32_t kZero = 0xffffffffu;
   static constexpr std::uint32_t kWeaker = 0xfffffffeu;

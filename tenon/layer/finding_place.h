@@ -10,7 +10,7 @@
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/layer.h"
 
-/// Where findings stand in layers.
+/// The places of findings in layers.
 namespace tenon::layer {
 
 /// Places a finding at the spec at `path` of `layer`: its file, and line and column where they are

@@ -11,7 +11,7 @@
 
 namespace tenon::layer {
 
-/// A field that may stand in the parentheses of a spec, with the type of its value.
+/// A field allowed in the parentheses of a spec, with the type of its value.
 struct MetadataField {
   Token name;
   ValueType type = ValueType::None;

@@ -5,7 +5,7 @@
 #include <compare>
 #include <string>
 
-/// Scalar value types that C++ has no word for.
+/// Scalar value types that C++ does not have.
 namespace tenon::layer {
 
 /// The path of an asset: as authored, after variable expressions, and on disk. A layer knows only

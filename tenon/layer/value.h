@@ -80,7 +80,7 @@ class DeferredArray {
   virtual Result<Value> decode() const = 0;
 };
 
-/// The array type that a std::vector<T> stands for.
+/// The array type of a std::vector<T>.
 template <class T>
 concept ArrayElementType = requires { ValueTraits<NumberArray<T>>::type; };
 

@@ -40,7 +40,7 @@ inline Vec3d transform_point(const Pose& ab, const Vec3d& p) {
 /// Row-vector matrix of a pose.
 Mat4d pose_matrix(const Pose& pose);
 
-/// A 4x4 matrix taken apart: M = r S r^-1 u t (row vectors), as OpenUSD's GfTransform does.
+/// A factored 4x4 matrix: M = r S r^-1 u t (row vectors), as OpenUSD's GfTransform does.
 struct Factored {
   Mat3d scale_orientation = Mat3d::identity();  ///< r
   Vec3d scale{{1, 1, 1}};                       ///< S, all negative when M mirrors

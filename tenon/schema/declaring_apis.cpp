@@ -20,7 +20,7 @@ struct InstancedName {
   std::string_view before;
   std::string_view behind;
 
-  /// The instance that `name` speaks of; empty when it is not such a name.
+  /// The instance that `name` belongs to; empty when it is not such a name.
   std::string_view instance_in(std::string_view name) const {
     const bool fits = name.size() > before.size() + behind.size() && name.starts_with(before) &&
                       name.ends_with(behind);

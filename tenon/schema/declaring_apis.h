@@ -9,7 +9,7 @@
 namespace tenon::schema {
 
 /// API schemas that declare a property of that name, sorted, with the instance that the name
-/// speaks of: {"PhysicsDriveAPI:rotZ"} for "drive:rotZ:physics:stiffness". Schemas that only build
+/// belongs to: {"PhysicsDriveAPI:rotZ"} for "drive:rotZ:physics:stiffness". Schemas that only build
 /// in others do not count for the properties of those. Empty when no API schema declares it.
 std::vector<Token> declaring_apis(Token property);
 

@@ -12,8 +12,8 @@
 
 namespace tenon::schema {
 
-/// Definitions shared by all prims of one type and one list of API schemas: to make one takes
-/// longer than most of what is asked of it.
+/// Definitions shared by all prims of one type and one list of API schemas: making one takes longer
+/// than most queries of it.
 class DefinitionCache {
  public:
   /// Lives as long as the cache.

@@ -105,7 +105,7 @@ class PrimDefinition {
   std::vector<Token> property_names(bool with_vendor) const;
 
   /// Applied schemas as stock OpenUSD reports them: built-ins of the type, then authored ones, each
-  /// followed by its own built-ins; names that it does not know are left out.
+  /// followed by its own built-ins; names that it does not know are skipped.
   const std::vector<Token>& applied_stock() const { return applied_stock_; }
   /// The same with vendor schemas, their built-ins and unknown names.
   const std::vector<Token>& applied() const { return applied_; }

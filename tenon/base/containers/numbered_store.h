@@ -12,10 +12,10 @@ namespace tenon {
 /// Sets `block` to memory that is not touched, if nobody else does at the same time.
 void add_block(std::byte*& block, std::size_t size);
 
-/// Objects by number, which are never moved or freed: a number of four bytes stands for one.
-/// Threads may make objects of different numbers at once. Whoever has a number got it from one who
-/// made its object, so that looking it up needs no order of its own. Static: its table of blocks
-/// has a place for each that there can be, of which the system gives those that are touched.
+/// Objects by number, which are never moved or freed; a number has four bytes. Threads may make
+/// objects of different numbers at once. A caller gets a number from the thread that made its
+/// object, so looking it up needs no ordering of its own. Static: its table of blocks has a place
+/// for each that there can be, of which the system gives those that are touched.
 template <class T>
 class NumberedStore {
  public:

@@ -58,7 +58,7 @@ class ShortList {
     size_ = 0;
     resize(count, element);
   }
-  /// Leaves out elements at the end, or adds equal ones.
+  /// Removes elements at the end, or appends copies of `element`.
   void resize(std::size_t count, T element) {
     if (count > capacity_) {
       grow(std::max(count, 2 * size_));
@@ -68,7 +68,7 @@ class ShortList {
     }
     size_ = count;
   }
-  /// Leaves out the elements that `is_out` says.
+  /// Removes the elements for which `is_out` is true.
   template <class Predicate>
   void erase_if(const Predicate& is_out) {
     size_ = static_cast<std::size_t>(std::remove_if(begin(), end(), is_out) - begin());

@@ -9,8 +9,8 @@
 
 namespace tenon {
 
-/// What was made of tokens lately, each in the one place that it may stand in. For names of which a
-/// scene has few and which are asked for at each prim.
+/// Recent results for tokens; each token maps to one slot. For names that a scene has few of and
+/// that are looked up at each prim.
 template <class Made, std::size_t kPlaces>
 class TokenMemo {
  public:

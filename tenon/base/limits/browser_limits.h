@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-/// Limits on what is asked of a browser that draws pictures and films, and on what it answers.
+/// Limits on requests to a browser that draws pictures and films, and on its replies.
 namespace tenon::limits {
 
 inline constexpr std::size_t kBrowserPage = 67'108'864;     ///< bytes of a page that it shows

@@ -10,7 +10,7 @@
 namespace tenon::limits {
 
 inline constexpr std::uint64_t kGuardMemoryBase = 1u << 30;      ///< bytes for any file
-inline constexpr std::uint64_t kGuardMemoryPerByte = 40;         ///< more per byte of what is read
+inline constexpr std::uint64_t kGuardMemoryPerByte = 40;         ///< more per byte of the file
 inline constexpr std::uint64_t kGuardMemoryMax = 8'589'934'592;  ///< bytes for the largest file
 inline constexpr std::uint64_t kGuardSeconds = 5;                ///< of processor time of a command
 inline constexpr std::uint64_t kGuardBytesPerSecond = 1u

@@ -62,7 +62,7 @@ TEST(PathNumbers, HasNothingAtFirst) {
   EXPECT_EQ(things.find(Path()), 0u);
 }
 
-/// What is asked for a path need not have it yet.
+/// A path without a number can be looked up.
 TEST(PathNumbers, FindsOrPuts) {
   Things things;
   for (std::size_t i = 0; i < 3000; ++i) {

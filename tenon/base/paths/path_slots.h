@@ -31,8 +31,8 @@ class PathSlots {
   std::size_t next(std::size_t slot) const { return (slot + 1) & mask_; }
   /// How many slots to look at, from the home on.
   std::size_t reach() const { return reach_; }
-  /// Something was put in at a slot that is so far from its home. False when numbers pile up: the
-  /// table is then to be filled anew, with `scattered`.
+  /// Notes that an entry was put at a slot that is so far from its home. False when numbers pile
+  /// up: then fill the table again, with `scattered`.
   bool note(std::size_t home, std::size_t slot) {
     const std::size_t distance = ((slot - home) & mask_) + 1;
     reach_ = distance > reach_ ? distance : reach_;

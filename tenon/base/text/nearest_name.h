@@ -15,8 +15,8 @@ namespace tenon {
 /// work is the product of the lengths: bound them first.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The name that `name` most likely was to be: at most two edits away (one for short names), or the
-/// same but for capitals; empty when there is none, or when `name` is one of them.
+/// The name that `name` was most likely meant to be: at most two edits away (one for short names),
+/// or different only in capitals; empty when there is none, or when `name` is one of them.
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& names);
 
 /// The same for many names against one list: each is looked for once, and no more than a thousand

@@ -58,7 +58,7 @@ std::size_t multi_byte_length(std::string_view text, std::size_t at) {
   return length;
 }
 
-/// Appends what the escape at `raw[at]` (after the backslash) stands for; returns its length.
+/// Appends the character of the escape at `raw[at]` (after the backslash); returns its length.
 std::size_t append_escape(std::string_view raw, std::size_t at, std::string& value) {
   const char c = raw[at];
   constexpr std::string_view kNames = "nrtabfv";

@@ -21,7 +21,7 @@ std::size_t fullest(const std::vector<std::string>& texts, unsigned shift, std::
   return *std::max_element(counts.begin(), counts.end());
 }
 
-// Where the text stands in memory, and what stands behind it, does not matter.
+// The text's address and the bytes after it do not matter.
 TEST(TextHash, DependsOnTheTextAlone) {
   const std::string long_text = "primvars:displayColor:indices and more";
   for (std::size_t length = 0; length <= long_text.size(); ++length) {

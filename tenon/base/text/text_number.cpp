@@ -3,7 +3,7 @@
 //
 // std::to_chars finds the shortest digits that read back as the same number, whatever the locale.
 // When to write an exponent is another question, which layers answer as OpenUSD does: there the
-// digits are taken from the scientific form as 0.DIGITS x 10^exponent and laid out anew. Whole
+// digits are taken from the scientific form as 0.DIGITS x 10^exponent and laid out again. Whole
 // numbers that are exact take a short way. A text is a number only when all of it is read.
 #include "tenon/base/text/text_number.h"
 

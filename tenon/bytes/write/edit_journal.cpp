@@ -3,8 +3,8 @@
 //
 // The last part of a transaction is a list of system calls, guarded twice. A child in a session of
 // its own, forked with all signals blocked, takes the steps even when this process is killed. A
-// journal outlives a failure of the machine: it holds renames and removals alone, of which each is
-// passed over when it is done already, so it can be followed from the start at any point. It is
+// journal outlives a failure of the machine: it holds only renames and removals, each of which is
+// skipped when it is done already, so it can be followed from the start at any point. It is
 // believed only where it can do no harm: a plain file of this user and of bounded size, about files
 // below its own folder without links on the way, that moves nothing but the hidden files of
 // transactions. And only where it was written: its text names its own file by number and time of
@@ -48,7 +48,7 @@ bool take_step(const CommitStep& step) {
   return false;
 }
 
-/// `path` relative to `home`, or nothing where a journal may not speak of it.
+/// `path` relative to `home`, or nothing where a journal may not name it.
 std::optional<std::string> name_in(const std::string& home, const std::string& path) {
   return path.starts_with(home + "/") ? std::optional(path.substr(home.size() + 1)) : std::nullopt;
 }

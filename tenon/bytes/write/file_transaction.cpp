@@ -286,7 +286,7 @@ class Commit {
       return done.error;
     }
     for (NewFile& file : files_) {
-      file.let_go();  // it has its place, or the journal speaks of it
+      file.let_go();  // it has its place, or the journal names it
     }
     return done.error;
   }

@@ -28,18 +28,18 @@ struct CommitOptions {
 /// synced, and then renamed into their places. One file is one step. Several are renamed by a
 /// child of its own session, which goes on when this process is killed; that takes some
 /// microseconds for each file. A journal, the hidden file ".tenon-journal" in the folder that holds
-/// them all, says what is left to do while that lasts: should the whole machine fail, the next
+/// them all, lists the remaining steps meanwhile: should the whole machine fail, the next
 /// transaction that has to do with the folder finishes it. The folders stay what they are: nobody's
 /// current folder goes away, and files of others are not touched.
 ///
 /// Several transactions on a folder wait for one another: each holds an advisory lock (flock) on
 /// the folders of its files, which leaves no file behind. File systems without it (some NFS) lock
-/// nothing; then the comparison with what was read, made right before, is what is left.
+/// nothing; there the only protection is the comparison with what was read, made right before.
 class FileTransaction {
  public:
-  /// `contents` are to stand at `path`, where there may be a file already: then its permissions
-  /// and, where allowed, its owner are kept. A symbolic link stays a link. Devices and pipes are
-  /// written to directly. The contents have to live until the commit.
+  /// Writes `contents` to `path`. If there is a file already, its permissions and, where allowed,
+  /// its owner are kept. A symbolic link stays a link. Devices and pipes are written to directly.
+  /// The contents have to live until the commit.
   void put(std::string path, std::string_view contents);
   /// The file goes, as far as it is there, and folders that are empty then, up to `top`.
   void remove(std::string path, std::string top);

@@ -226,7 +226,7 @@ bool write_journal(const std::string& folder, const std::vector<CommitStep>& ste
   return error == 0 && !birth.empty();
 }
 
-/// What is left when everything stops between two renames.
+/// The state after everything stops between two renames.
 TEST_F(Transaction, TheNextOneFinishesWhatAnotherBegan) {
   put({{"payloads/Physics/.tenon-1-1", "late physics"}});
   if (!write_journal(

@@ -35,7 +35,7 @@ bool is_safe_part(std::string_view part, bool first) {
   return true;
 }
 
-/// Whether a name is safe; adds the folders that it stands in, outermost first.
+/// Whether a name is safe; adds its parent folders, outermost first.
 bool is_safe_name(std::string_view name, std::vector<std::string>& folders) {
   std::size_t begin = 0;
   while (true) {
@@ -115,7 +115,7 @@ Result<void> check_entry_names(const ZipArchive& archive) {
     if (is_folder(entry)) {
       folders.insert(name);
     } else if (!files.insert(name).second) {
-      return bad_name(entry.name, "a name that stands there twice");
+      return bad_name(entry.name, "a duplicate name");
     }
   }
   for (const std::string& folder : folders) {

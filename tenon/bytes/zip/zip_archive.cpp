@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Layout: local headers with their data, then the central directory, then its end record, which
-// stands at most 65535 bytes (a comment) before the end of the file. Where its numbers are too
+// begins at most 65535 bytes (a comment) before the end of the file. Where its numbers are too
 // small, a locator right before it says where the end record of 64 bits is (APPNOTE.TXT 6.3.10 of
 // PKWARE, 4.3.14 to 4.3.16 and 4.5.3). Sorted by place, each entry must end before the next begins,
 // so no bytes count twice and a small file cannot unpack to a large one. Contents are slices of the
@@ -29,7 +29,7 @@ constexpr std::uint32_t kEnd64Signature = 0x06064b50;
 constexpr std::uint32_t kLocator64Signature = 0x07064b50;
 constexpr std::size_t kLocator64Size = 20;
 constexpr std::uint16_t kField64 = 1;            // id of the extra field with numbers of 64 bits
-constexpr std::uint32_t kIn64Bits = 0xffffffff;  // where the number stands there instead
+constexpr std::uint32_t kIn64Bits = 0xffffffff;  // the number is in the extra field
 constexpr std::size_t kLocalSize = 30;
 constexpr std::size_t kCentralSize = 46;
 constexpr std::size_t kEndSize = 22;
@@ -136,8 +136,8 @@ struct LocalHeader {
 #pragma pack(pop)
 static_assert(sizeof(CentralHeader) == kCentralSize && sizeof(LocalHeader) == kLocalSize);
 
-/// Puts in the numbers that stand in the extra field of 64 bits; it holds just those that do not
-/// fit, in this order.
+/// Reads the numbers in the extra field of 64 bits; it holds only those that do not fit, in this
+/// order.
 Result<void> read_field_64(ByteReader& extra, const CentralHeader& header, ZipEntry& entry) {
   while (extra.remaining() >= 4) {
     TENON_TRY(const auto id, extra.read<std::uint16_t>());

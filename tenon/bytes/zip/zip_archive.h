@@ -34,7 +34,7 @@ class ZipArchive {
   static Result<ZipArchive> open(std::shared_ptr<const FileBytes> bytes);
 
   const std::vector<ZipEntry>& entries() const { return entries_; }
-  /// nullptr when there is none of that name.
+  /// nullptr when no entry has that name.
   const ZipEntry* find(std::string_view name) const;
   /// ErrorCode::Unsupported for compressed and encrypted entries; Corrupt "package.damaged" where
   /// the entry's own header says something else than the table of contents, and for contents of up

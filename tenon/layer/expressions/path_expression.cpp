@@ -5,8 +5,8 @@
 // along that list, without recursion: the image of each node is made from the images of its
 // operands. add_operation folds away what is everything or nothing and double complements, so trees
 // that were parsed, mapped or resolved have the form that SdfPathExpression gives them. kNoNode
-// stands for nothing. References may multiply a tree, so a rebuild stops at a bound. In text, a
-// blank between two operands is a union that binds tighter than '+'.
+// means nothing. References may multiply a tree, so a rebuild stops at a bound. In text, a blank
+// between two operands is a union that binds tighter than '+'.
 #include "tenon/layer/expressions/path_expression.h"
 
 #include <utility>
@@ -197,7 +197,7 @@ std::string PathExpressionTree::text() const {
     out += found.path.str();
     out += found.is_weaker() ? "_" : ':' + found.name;
   };
-  // Atoms are told apart by their node, which the callback does not get: number them anew.
+  // Atoms are identified by their node, which the callback does not get: renumber them.
   std::vector<ExpressionNode> nodes = nodes_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].op == kAtom) {

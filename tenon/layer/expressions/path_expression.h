@@ -17,7 +17,7 @@
 namespace tenon::layer {
 
 /// `%/World:lights`: what the collection "lights" of the prim /World matches. `%:lights` is one of
-/// the prim that holds the expression; `%_` stands for the opinion of the next weaker layer.
+/// the prim that holds the expression; `%_` is the opinion of the next weaker layer.
 struct ExpressionReference {
   Path path;  ///< empty: the prim that holds the expression
   std::string name;

@@ -9,7 +9,7 @@
 #include "tenon/layer/expressions/expression_tree.h"
 #include "tenon/layer/value.h"
 
-/// What stands in braces in a path expression: `{isa:Mesh and not kind(component, strict=true)}`.
+/// The part in braces of a path expression: `{isa:Mesh and not kind(component, strict=true)}`.
 /// Grammar: SdfPredicateExpression of OpenUSD.
 namespace tenon::layer {
 

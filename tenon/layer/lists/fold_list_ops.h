@@ -20,8 +20,8 @@ void remove_from_edits(ListOp<T>& op, const std::vector<T>& items) {
 
 /// The one edit that does what applying `weaker` and then `stronger` does, whatever the list below
 /// them; nothing where no edit can: `added` and `ordered` look at what is there. An item of
-/// `stronger` stands in one list of the result (appended wins over prepended, that over deleted),
-/// so `fold(op, {})` is `op` reduced; the lists of `weaker` are taken as they are.
+/// `stronger` is in one list of the result (appended wins over prepended, that over deleted), so
+/// `fold(op, {})` is `op` reduced; the lists of `weaker` are taken as they are.
 template <class T>
 std::optional<ListOp<T>> fold(const ListOp<T>& stronger, const ListOp<T>& weaker) {
   using List = std::vector<T>;

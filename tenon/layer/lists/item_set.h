@@ -19,8 +19,8 @@ std::size_t item_hash(const T& item) {
   }
 }
 
-/// Where items first stand in a list that may grow at its end: by comparing while it is short, by a
-/// table when it is long, so that long lists cost no square of their length.
+/// The first position of items in a list that may grow at its end: by comparing while it is short,
+/// by a table when it is long, so that long lists cost no square of their length.
 template <class T>
 class ItemPositions {
  public:

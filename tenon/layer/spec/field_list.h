@@ -20,7 +20,7 @@ struct Field {
   Field() = default;
   Field(Token field_name, Value field_value) : value(std::move(field_value)), name(field_name) {}
 
-  [[no_unique_address]] Value value;  // the name lies in what is left of it
+  [[no_unique_address]] Value value;  // the name uses its tail padding
   ShortToken name;
 };
 static_assert(sizeof(Field) == sizeof(Value), "many of them are in memory");
