@@ -39,8 +39,8 @@ struct OpenOptions {
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path{};
   bool load_payloads = true;
-  /// Prim paths; when not empty, payloads are left out but for those of these prims, of what is
-  /// above and of what is below them.
+  /// Prim paths; when not empty, only the payloads of these prims, their ancestors and their
+  /// descendants are loaded.
   std::vector<std::string> load{};
   std::vector<std::string> mask{};  ///< prim paths; empty: everything
   /// Layers that count as absent, the root layer cannot: files, relative to the working directory

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A prim whose set lacks the variant keeps what it has, so that robots with different engines may
-// stand in one scene; only where no prim has the variant is it an error. A selection may bring
-// further prims with the set, which the caller asks for again after composing.
+// share one scene; only where no prim has the variant is it an error. A selection may bring further
+// prims with the set, which the caller asks for again after composing.
 #include "tenon/physics_selection.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ std::vector<stage::Prim> prims_with_physics_set(const stage::Stage& stage);
 
 /// Prims of a stage that has been composed with the options, whose variant set "Physics" has
 /// `options.physics_variant` and selects another one, and that `options.physics_of` does not name.
-/// Prims below instances are left out: opinions of session layers do not reach them.
+/// Prims below instances are skipped: opinions of session layers do not reach them.
 std::vector<Path> prims_to_select(const stage::Stage& stage, const OpenOptions& options);
 
 /// Holds what was asked for against a stage that has been composed with it. Errors: NotFound

@@ -22,7 +22,7 @@ enum class AssignmentKind : std::uint8_t {
 
 struct PropertyAssignment {
   Path property;      ///< absolute
-  std::string value;  ///< of an attribute as text layers print it, quotes and @ may be left out,
+  std::string value;  ///< of an attribute as text layers print it, quotes and @ optional,
                       ///< "None" blocks; of a relationship: paths, all that it has then
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it
   AssignmentKind kind = AssignmentKind::Whole;

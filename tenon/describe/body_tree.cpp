@@ -97,7 +97,7 @@ void BodyTreeReader::hang(const std::vector<scene::Index>& bodies) {
   }
 }
 
-/// The link of a body whose frame stands at `anchor` in the body.
+/// The link of a body, with its frame at `anchor` in the body.
 void BodyTreeReader::add_body(scene::Index body, const Vec3d& anchor) {
   const scene::Body& described = scene_.bodies[body];
   const Pose in_body{anchor, kIdentityRotation};

@@ -10,8 +10,8 @@
 /// Internal to this folder.
 namespace tenon::describe {
 
-/// A camera or a light of the stage on a link that stands at `link`, named by its path. Of lights:
-/// nothing where robots have none of that kind, which is reported.
+/// A camera or a light of the stage on a link at `link`, named by its path. Of lights: nothing for
+/// a kind that robots do not have, which is reported.
 robot::Camera read_camera(SceneSource& source, const stage::Prim& prim, const RobotTree& tree,
                           const Pose& link);
 std::optional<robot::Light> read_light(SceneSource& source, const stage::Prim& prim,

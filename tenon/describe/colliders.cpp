@@ -60,7 +60,7 @@ std::optional<Index> link_of(const BodyTree& bodies, const scene::Collider& desc
   return described.body ? bodies.link_of_body[*described.body] : bodies.tree.world();
 }
 
-/// A collider but for its mesh; none, and a finding, where it is of another kind.
+/// A collider without its mesh; none, and a finding, for an unsupported kind.
 std::optional<robot::Collider> read_collider(SceneSource& source, const BodyTree& bodies,
                                              const scene::Collider& described, Index link) {
   const scene::Shape& shape = described.shape;

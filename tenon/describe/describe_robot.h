@@ -11,8 +11,8 @@
 /// Robots back out of scenes, for formats that describe a robot as a tree of links.
 namespace tenon::describe {
 
-/// The bodies and joints of a scene as one tree of links, with what is seen of them on `stage`,
-/// which `scene` is read from. A link's frame is its body's, moved to the anchor of the joint that
+/// The bodies and joints of a scene as one tree of links, with their visuals on `stage`, which
+/// `scene` is read from. A link's frame is its body's, moved to the anchor of the joint that
 /// carries it, where URDF has joints turn. Bodies that no joint carries hang on a link by floating
 /// joints where there is more than one tree. Prims that are sites (IsaacSiteAPI) become links
 /// without mass on fixed joints. Names are display names where prims have such.

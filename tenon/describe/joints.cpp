@@ -21,7 +21,7 @@ using robot::JointKind;
 
 namespace {
 
-/// Stands for an open end beside a closed one; URDF has no word for infinity [rad or m].
+/// An open end beside a closed one; URDF cannot express infinity [rad or m].
 constexpr double kFar = 1e9;
 
 Vec3d unit_vector(std::size_t axis) {

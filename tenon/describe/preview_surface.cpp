@@ -58,7 +58,7 @@ bool near(const Vec2d& a, const Vec2d& b) {
 struct Mapping {
   Vec2d scale{{1, 1}};
   Vec2d offset;
-  bool is_turned = false;  ///< for which a model has no word
+  bool is_turned = false;  ///< unsupported by a model
 };
 
 Mapping mapping_of(const stage::Prim& texture) {

@@ -27,8 +27,8 @@ class TakenNames {
 /// Links and joints while they are made, where the links stand, and which prims they are of.
 class RobotTree {
  public:
-  /// A new link of a prim, or of none. It stands at `pose` in the world, as on the stage, and at
-  /// `in_body` in its body, or in the world where it is of none [m].
+  /// A new link of a prim, or of none. `pose` is its place in the world, as on the stage, `in_body`
+  /// its place in its body, or in the world where it has none [m].
   robot::Index add_link(Path prim, const std::string& name, const Pose& pose, const Pose& in_body);
   /// A new joint; its name gets a number where it is taken.
   robot::Index add_joint(robot::Joint joint);

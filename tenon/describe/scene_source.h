@@ -17,7 +17,7 @@ namespace tenon::describe {
 /// The format that is to be written: what it has words for.
 enum class Format : std::uint8_t { Urdf, Mjcf };
 
-/// A prim's matrix to metres in the world as a rigid pose and what is left of it.
+/// A prim's matrix to metres in the world as a rigid pose and the remaining factor.
 struct Placed {
   Pose pose;
   Mat4d rest;  ///< prim space -> axes of `pose` [m]
@@ -45,7 +45,7 @@ class SceneSource {
 
   Placed placed(const stage::Prim& prim);
 
-  /// Reports what the format has no word for.
+  /// Reports what the format does not support.
   void left_out(Path prim, const std::string& why);
 
  private:

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A robot's shapes have a rigid pose and sizes in metres; prims have any matrix. So the matrix is
-// taken apart (SceneSource::placed): points of meshes go through what is left of it, sizes of other
-// shapes are scaled by it where a shape of that kind can be, and the others are none.
+// factored (SceneSource::placed): points of meshes are multiplied by the remaining factor, sizes of
+// other shapes are scaled by it where their kind allows it, and the others are skipped.
 #include "tenon/describe/visual_shapes.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ bool triangulate(const layer::Array<int>& counts, const layer::Array<int>& indic
   return true;
 }
 
-/// The identity but for rounding: points stay as they are, to their last bit.
+/// The identity up to rounding: points stay as they are, to their last bit.
 bool is_identity(const Mat4d& m) {
   const Mat4d one = Mat4d::identity();
   for (std::size_t i = 0; i < 4; ++i) {

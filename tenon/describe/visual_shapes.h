@@ -10,15 +10,15 @@
 /// Internal to this folder.
 namespace tenon::describe {
 
-/// What is seen of a prim.
+/// A prim's visual shape.
 struct VisualShape {
-  robot::Geometry geometry;             ///< but for the number of `mesh`
+  robot::Geometry geometry;             ///< without the number of `mesh`
   Pose pose;                            ///< in the link
   std::optional<robot::MeshFile> mesh;  ///< of a mesh, its triangles [m]
 };
 
-/// The shape of a gprim in a link that stands at `link` in the world. None where it is empty,
-/// skewed or of a kind that the format does not have.
+/// The shape of a gprim in a link that is at `link` in the world. None where it is empty, skewed or
+/// of a kind that the format does not have.
 std::optional<VisualShape> read_visual_shape(SceneSource& source, const stage::Prim& prim,
                                              const Pose& link);
 

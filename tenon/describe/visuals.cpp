@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One walk over all prims, which knows the link that each belongs to: what is seen, frames, cameras
-// and lights go to that link, or to the world. What stands still and has no world is left out.
+// One walk over all prims, which knows the link that each belongs to: visuals, frames, cameras and
+// lights go to that link, or to the world. Static prims are skipped where there is no world.
 #include "tenon/describe/visuals.h"
 
 #include "tenon/describe/cameras.h"

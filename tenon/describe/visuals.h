@@ -16,8 +16,8 @@ struct Looks {
   std::vector<robot::Material> materials;
 };
 
-/// Adds what is seen on the stage to the links at or above it and, where the format has no sites,
-/// links for sites. Reports what is seen and cannot be said.
+/// Adds the visuals of the stage to the links at or above them and, where the format has no sites,
+/// links for sites. Reports visuals that the format does not support.
 Looks add_visuals(SceneSource& source, RobotTree& tree);
 
 }  // namespace tenon::describe

@@ -38,7 +38,7 @@ struct DiffOptions {
 
 /// Everything that differs, sorted by path, fields in authored order. Not compared: the order of
 /// properties (it says nothing), source lines, identifiers. The order of child prims is, as the
-/// field "primChildren", where the children that both have stand in another order.
+/// field "primChildren", where common children are in another order.
 std::vector<Difference> layer_differences(const layer::Layer& before, const layer::Layer& after,
                                           const DiffOptions& options = {});
 

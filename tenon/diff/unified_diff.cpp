@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Myers' greedy search ("An O(ND) Difference Algorithm and Its Variations", 1986) over lines. What
-// two texts begin and end with is left out first, so that few lines are searched.
+// Myers' greedy search ("An O(ND) Difference Algorithm and Its Variations", 1986) over lines. The
+// common beginning and end of two texts are removed first, so that few lines are searched.
 #include "tenon/diff/unified_diff.h"
 
 #include <algorithm>

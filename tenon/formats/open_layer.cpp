@@ -37,7 +37,7 @@ Result<std::shared_ptr<const bytes::FileBytes>> bytes_of_layer(
     std::shared_ptr<const bytes::FileBytes> bytes) {
   for (std::size_t depth = 0; format_of(*bytes) == LayerFormat::Package; ++depth) {
     if (depth == limits::kPackageNesting) {
-      return Error(ErrorCode::Limit, "packages stand in packages too deeply");
+      return Error(ErrorCode::Limit, "packages are nested too deeply");
     }
     TENON_TRY(const bytes::ZipArchive archive, bytes::ZipArchive::open(std::move(bytes)));
     if (archive.entries().empty()) {

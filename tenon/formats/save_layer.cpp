@@ -89,7 +89,7 @@ Result<std::string> encode_text(const layer::Layer& layer) {
                    "this layer has no text form that can be read back: " + fault.message)
           .in_file(layer.identifier())
           .with_prim(fault.prim)
-          .with_fix("write it as .usdc, or mend what the message names");
+          .with_fix("write it as .usdc, or fix what the message names");
     }
   }
   return text;

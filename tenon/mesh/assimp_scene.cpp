@@ -215,7 +215,7 @@ class SceneReader {
   }
 
   /// Whether the image of emission counts: glTF multiplies it with a colour, which is black where
-  /// the file says nothing. Other colours than white are left out.
+  /// the file says nothing. Colours other than white are unsupported.
   bool emits(const aiMaterial& material, const std::string& name) {
     aiColor4D color(0, 0, 0, 0);
     assimp().material_color(&material, AI_MATKEY_COLOR_EMISSIVE, &color);
@@ -227,7 +227,7 @@ class SceneReader {
             AI_SUCCESS &&
         image.length != 0;
     if (!black && !(white && has_image)) {
-      report("the colour that the material \"" + name + "\" emits is left out",
+      report("the colour that the material \"" + name + "\" emits is skipped",
              "author inputs:emissiveColor of its surface");
     }
     return !black;
@@ -257,7 +257,7 @@ class SceneReader {
       }
     }
     if (name.starts_with('*')) {
-      report("a texture names no image of the file; it is left out", "export the mesh again");
+      report("a texture names no image of the file; skipped", "export the mesh again");
       return {};
     }
     return (std::filesystem::path(path_).parent_path() / name).generic_string();
@@ -269,7 +269,7 @@ class SceneReader {
     if (assimp().material_floats(&material, AI_MATKEY_UVTRANSFORM(type, 0), transform.data(),
                                  &count) == AI_SUCCESS &&
         transform != std::array<float, 5>{0, 0, 1, 1, 0}) {
-      report("the transform of the texture " + name + " is left out",
+      report("the transform of the texture " + name + " is skipped",
              "apply it to the texture coordinates of the mesh");
     }
   }

@@ -68,7 +68,7 @@ class Strings {
     return value;
   }
 
-  /// How many objects and lists the string stands in.
+  /// How many objects and lists enclose the string.
   int depth() const { return depth_; }
   /// Whether the string is the name of a member.
   bool before_colon() const {

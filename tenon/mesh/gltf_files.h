@@ -15,8 +15,8 @@ namespace tenon::mesh {
 /// are judged where they are used.
 std::vector<std::string> gltf_uris(std::string_view bytes);
 
-/// Numbers of a glTF file may stand in others. Error under bytes::kOutsideRule, with the file, for
-/// one that is there and lies outside of what may be read.
+/// Numbers of a glTF file may be in other files. Error under bytes::kOutsideRule, with the file,
+/// for one that exists outside the folders that may be read.
 Result<void> check_gltf_files(std::string_view bytes, const std::string& path,
                               const bytes::ReadPolicy& policy);
 

@@ -310,7 +310,7 @@ class ObjReader {
     if (left_out_ > 0) {
       diagnostics_.add(file_finding(
           Severity::Warning, "mesh.left-out",
-          std::to_string(left_out_) + " lines, points and curves of the mesh are left out", path_));
+          std::to_string(left_out_) + " lines, points and curves of the mesh are skipped", path_));
     }
     return scene;
   }

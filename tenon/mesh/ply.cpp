@@ -3,8 +3,8 @@
 //
 // PLY (Turk, 1994): a text header that names elements and the types of their properties, then the
 // elements in that order, as words or as bytes of either order. Points are the properties x, y and
-// z of "vertex", faces the list vertex_indices (or vertex_index) of "face"; all else is passed over
-// by its type. Every count is held against the bytes that are left before memory is taken.
+// z of "vertex", faces the list vertex_indices (or vertex_index) of "face"; all else is skipped by
+// its type. Every count is checked against the remaining bytes before memory is allocated.
 #include <algorithm>
 #include <bit>
 
@@ -69,7 +69,7 @@ class PlyNumbers {
     return form_ == PlyForm::Text ? next_word() : next_bytes(type);
   }
 
-  /// At least one byte stands for each number.
+  /// Each number takes at least one byte.
   std::size_t left() const { return body_.size() - at_; }
 
  private:

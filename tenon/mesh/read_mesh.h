@@ -13,14 +13,14 @@
 
 namespace tenon::mesh {
 
-/// Who reads the formats that are not read in this process, and which folders it may read.
+/// The process that reads the formats not read in this one, and which folders it may read.
 struct MeshReading {
   guard::Workers& workers;
   const bytes::ReadPolicy& policy;
 };
 
 /// Reads .stl and .ply (binary or text) and .obj with every number rounded once to float, and .dae,
-/// .gltf and .glb by assimp in tenon-worker, where both are installed. What is left out goes to
+/// .gltf and .glb by assimp in tenon-worker, where both are installed. What is skipped goes to
 /// `diagnostics`. Errors, with the file and in text with the line: NotFound, Io, Parse, Corrupt,
 /// Limit (kMeshCorners, those of the worker), Unsupported for other endings, Missing without
 /// assimp or worker. Collada's unit of length is applied, its up axis is not, as other readers of

@@ -54,7 +54,7 @@ class TextScanner {
     return found;
   }
 
-  /// What is left of the line without white space around it.
+  /// The rest of the line without white space around it.
   std::string_view rest_of_line() {
     std::string_view left = current_;
     current_ = {};

@@ -15,8 +15,8 @@
 /// How far two motions are apart.
 namespace tenon::motions {
 
-/// What is compared. All of it follows from poses, velocities and contacts, and is worked out alike
-/// for every engine.
+/// The metrics compared. All follow from poses, velocities and contacts, and are computed alike for
+/// every engine.
 enum class Metric : std::uint8_t {
   Position,     ///< of the origin of a body [m]
   Orientation,  ///< of a body [rad]

@@ -26,8 +26,8 @@ struct Camera {
   Pose pose;  ///< in the link frame
   bool orthographic = false;
   /// Width and height of the film, `offset` from its middle to where it is hit at right angles, and
-  /// its distance behind the lens, in one unit, as only their ratios count. A width of 0: not told.
-  /// Orthographic: width and height of what is seen [m].
+  /// its distance behind the lens, in one unit, as only their ratios count. A width of 0: unknown.
+  /// Orthographic: width and height of the view [m].
   Vec2d aperture;
   Vec2d offset;
   double focal_length = 0;

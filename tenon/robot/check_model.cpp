@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A model from another process may hold anything, so each index and each length that later code
-// follows is checked once, before anybody uses it. The first fault is enough: it shows that the
-// reader is at fault and not the description, so there is nothing to mend.
+// follows is checked once, before it is used. The first fault is enough: it shows that the reader
+// is at fault and not the description, so there is nothing to fix in the file.
 #include "tenon/robot/check_model.h"
 
 #include <algorithm>

@@ -24,10 +24,10 @@ struct KinematicTree {
 /// in a cycle, more than one root; duplicate names of links or of joints.
 Result<KinematicTree> kinematic_tree(const RobotModel& model);
 
-/// What is wrong with a model whose tree is sound and can be mended: numbers that are not finite,
-/// masses and inertias that no body can have, zero axes, mimics in a cycle or of unfit joints,
-/// limits upside down. Each finding goes to `diagnostics`, and what it names is made harmless: left
-/// out or unlimited, as its message says.
+/// Faults of a model whose tree is sound that can be fixed: numbers that are not finite, masses and
+/// inertias that no body can have, zero axes, mimics in a cycle or of unfit joints, limits upside
+/// down. Each finding goes to `diagnostics`, and what it names is made harmless: left out or
+/// unlimited, as its message says.
 void sanitize_model(RobotModel& model, Diagnostics& diagnostics);
 
 }  // namespace tenon::robot

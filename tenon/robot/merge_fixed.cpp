@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Links go down the tree: each is either kept or added to the kept one above it, with its place
-// there. All that named a link or a joint by number is numbered anew at the end.
+// Links go down the tree: each is either kept or added to the kept one above it, with its pose
+// there. All references to links and joints by number are renumbered at the end.
 #include "tenon/robot/merge_fixed.h"
 
 #include "tenon/math/inertia.h"

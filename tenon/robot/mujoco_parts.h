@@ -131,7 +131,7 @@ struct MujocoKeyframe {
 
 /// The whole description as MuJoCo writes it, for the way back.
 struct MujocoSource {
-  /// Files stand in it by their numbers in `files`, behind the mark ("?0"); empty: none is kept.
+  /// It names files by their numbers in `files`, behind the mark ("?0"); empty: none is kept.
   std::string text;
   std::vector<std::string> files;  ///< absolute
 

@@ -116,9 +116,9 @@ struct MaterialImage {
 
 struct Material {
   std::string name;
-  std::optional<Vec4d> color;  ///< red, green, blue, opacity as displayed (sRGB), 0 to 1
-  std::string texture;         ///< image of the colour, a file; empty: none
-  bool tinted = false;  ///< `texture` is multiplied with `color`, else it stands in its place
+  std::optional<Vec4d> color;         ///< red, green, blue, opacity as displayed (sRGB), 0 to 1
+  std::string texture;                ///< image of the colour, a file; empty: none
+  bool tinted = false;                ///< `texture` is multiplied with `color`, else it replaces it
   bool texture_opacity = false;       ///< the opacity is that of `texture`
   bool texture_linear = false;        ///< the numbers in `texture` are linear, not as displayed
   std::vector<MaterialImage> images;  ///< each use once; roughness and metallic are their factors

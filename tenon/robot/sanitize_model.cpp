@@ -67,7 +67,7 @@ class Sanitizing {
     if (!std::isfinite(inertial.mass) || !finite(inertial.center_of_mass) ||
         !std::isfinite(dot(inertial.axes, inertial.axes)) || !finite(inertial.inertia)) {
       report(inertial.place, "robot.not-finite",
-             whose + "holds a number that is not finite; it is left out", "give finite numbers");
+             whose + "has a number that is not finite; it is skipped", "give finite numbers");
       link.inertial.reset();
       return;
     }
@@ -105,7 +105,7 @@ class Sanitizing {
     inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
     report(inertial.place, "robot.inertia-not-positive",
            whose + "has a principal moment that is not above 0; " +
-               (sum > 0 ? "the mean of the three is taken for each" : "it is left out"),
+               (sum > 0 ? "the mean of the three is taken for each" : "it is skipped"),
            "take the inertia from the part's shape and mass", Severity::Warning);
     return true;
   }
@@ -139,12 +139,12 @@ class Sanitizing {
       if (!finite(shape.pose)) {
         report(shape.place, "robot.not-finite",
                "a " + what + " of link \"" + link.name +
-                   "\" stands at no finite place; it is left out",
+                   "\" has a pose that is not finite; it is skipped",
                "give finite numbers");
       } else if (!sized(shape.geometry)) {
         report(shape.place, "robot.bad-size",
                "a " + what + " of link \"" + link.name + "\" is a " + name +
-                   " of no size; it is left out",
+                   " of no size; it is skipped",
                "give sizes above 0");
       } else {
         kept.push_back(std::move(shape));
@@ -157,7 +157,7 @@ class Sanitizing {
     for (Pose* pose : {&joint.origin, &joint.frame}) {
       if (!finite(*pose)) {
         report(joint.place, "robot.not-finite",
-               "the joint \"" + joint.name + "\" stands at no finite place; 0 is taken",
+               "the joint \"" + joint.name + "\" has a pose that is not finite; 0 is used",
                "give finite numbers");
         *pose = {};
       }
@@ -185,7 +185,7 @@ class Sanitizing {
     if (std::isnan(value) || value < 0 || (std::isinf(value) && fallback == 0)) {
       report(joint.place, "robot.bad-number",
              std::string("the ") + name + " of joint \"" + joint.name +
-                 "\" is negative or not finite; it is left out",
+                 "\" is negative or not finite; it is skipped",
              "give a number that is not negative");
       value = fallback;
     }
@@ -201,7 +201,7 @@ class Sanitizing {
     if (!std::isfinite(joint.spring_reference)) {
       report(joint.place, "robot.bad-number",
              "the rest position of the spring of joint \"" + joint.name +
-                 "\" is not finite; it is left out",
+                 "\" is not finite; it is skipped",
              "give a finite number");
       joint.spring_reference = 0;
     }
@@ -220,7 +220,7 @@ class Sanitizing {
     } else if (limit.lower > limit.upper) {
       report(joint.place, "robot.limit-order",
              "the lower limit of joint \"" + joint.name +
-                 "\" lies above the upper one; they are swapped",
+                 "\" is above the upper one; they are swapped",
              "swap them");
       joint.limit = Limit{limit.upper, limit.lower};
     }
@@ -241,7 +241,7 @@ class Sanitizing {
     }
     if (!why.empty()) {
       report(joint.mimic->place, "robot.mimic",
-             "the joint \"" + joint.name + "\" " + why + "; the mimic is left out",
+             "the joint \"" + joint.name + "\" " + why + "; the mimic is skipped",
              "name another joint with one axis, and finite numbers");
       joint.mimic.reset();
     }
@@ -260,7 +260,7 @@ class Sanitizing {
       if (walked_by[at] == start && joint.mimic) {
         report(
             joint.mimic->place, "robot.mimic",
-            "the joint \"" + joint.name + "\" follows itself through others; its mimic is left out",
+            "the joint \"" + joint.name + "\" follows itself through others; its mimic is skipped",
             "let one joint of the cycle lead");
         joint.mimic.reset();
       }

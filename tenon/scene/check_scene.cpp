@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// What engines and exporters take for granted about a scene. The reader makes it so; here it is
-// checked of scenes that come as JSON or as bytes. Indices are found by the tables: a field that
-// refers to a list is looked at wherever it lies. Which lists go together stands below.
+// What engines and exporters assume about a scene. The reader guarantees it; here it is checked for
+// scenes that come as JSON or as bytes. Indices are found by the tables: a field that refers to a
+// list is checked wherever it is. Which lists go together is declared below.
 #include "tenon/scene/check_scene.h"
 
 #include <algorithm>

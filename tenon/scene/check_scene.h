@@ -7,9 +7,9 @@
 
 namespace tenon::scene {
 
-/// Whether a scene that a stranger made can be handed to engines: every index leads somewhere,
-/// lists that go together have one length, times ascend, numbers that may not be infinite or no
-/// number are neither. Errors: Corrupt, with the object and the field.
+/// Whether an untrusted scene can be handed to engines: every index is valid, lists that go
+/// together have equal lengths, times ascend, numbers are finite where they must be. Errors:
+/// Corrupt, with the object and the field.
 Result<void> check_scene(const PhysicsScene& scene);
 
 }  // namespace tenon::scene

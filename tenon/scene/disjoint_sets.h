@@ -14,7 +14,7 @@ class DisjointSets {
   explicit DisjointSets(std::size_t count) : above_(count) {
     std::iota(above_.begin(), above_.end(), std::size_t{0});
   }
-  /// The member that stands for the whole set of `i`.
+  /// The representative of the set of `i`.
   std::size_t find(std::size_t i) {
     while (above_[i] != i) {
       above_[i] = above_[above_[i]];
@@ -22,8 +22,7 @@ class DisjointSets {
     }
     return i;
   }
-  /// Makes one set of two; the member that stands for the set of `b` stands for it. False when they
-  /// were one already.
+  /// Joins two sets under the representative of the set of `b`. False when they were one already.
   bool join(std::size_t a, std::size_t b) {
     a = find(a);
     b = find(b);
@@ -32,7 +31,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::size_t> above_;  // (count) towards the member that stands for the set
+  std::vector<std::size_t> above_;  // (count) towards the representative of the set
 };
 
 }  // namespace tenon::scene

@@ -91,7 +91,7 @@ class Builder {
 
   void choose_joints() {
     DisjointSets trees(world_ + 1);
-    std::vector<char> rooted(world_ + 1, 0);  // by the member that stands for a tree
+    std::vector<char> rooted(world_ + 1, 0);  // by the representative of a tree
     rooted[world_] = 1;
     for (std::size_t i = 0; i < world_; ++i) {
       rooted[i] = scene_.bodies[i].kinematic ? 1 : 0;

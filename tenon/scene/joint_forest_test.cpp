@@ -56,7 +56,7 @@ PhysicsScene articulated(PhysicsScene scene, const Indices& traversal,
   return scene;
 }
 
-/// A base that stands in the world by joint 0 and four bars in a ring, joints 1 to 4.
+/// A base fixed to the world by joint 0 and four bars in a ring, joints 1 to 4.
 PhysicsScene four_bar() {
   return scene_of(
       4, {joint(kWorld, 0, JointKind::Fixed), joint(0, 1), joint(1, 2), joint(2, 3), joint(3, 0)});

@@ -27,9 +27,9 @@ bool is_plain(const Joint& joint);
 bool can_break(const Joint& joint);
 /// A spherical joint's cone with one angle for both directions, or kUnlimited [rad].
 double circular_cone(const Joint& joint);
-/// What the joint does is all in how its two frames may stand: nothing of it acts on a coordinate,
-/// so it is a simple constraint where it closes a loop. Fixed joints, and plain revolute or
-/// spherical ones without bounds but for a circular cone.
+/// The joint is fully defined by how its two frames may be placed: nothing acts on a coordinate, so
+/// it is a simple constraint where it closes a loop. Fixed joints, and plain revolute or spherical
+/// ones without bounds except for a circular cone.
 bool is_held_by_frames(const Joint& joint);
 
 }  // namespace tenon::scene

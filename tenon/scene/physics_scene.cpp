@@ -6,7 +6,7 @@
 // bound that is infinite at one of the two is not blended.
 // Filters only remove pairs. Two colliders may touch unless they are off, both static, of one body
 // or of different scenes, or unless their groups (S-77) or the sorted list of pairs say no. Pairs
-// of joints that may break or be switched are kept by joint, so that the list can be made anew.
+// of joints that may break or be switched are kept by joint, so that the list can be rebuilt.
 #include "tenon/scene/physics_scene.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include "tenon/math/transform.h"
 
 /// Sensors of an asset: what they are fixed to and how they measure. Engines need not know them;
-/// what they read is worked out from what every engine gives (tenon/engines/sensors.h).
+/// their readings are computed from what every engine gives (tenon/engines/sensors.h).
 namespace tenon::scene {
 
 enum class SensorKind : std::uint8_t {

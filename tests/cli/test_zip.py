@@ -223,7 +223,7 @@ def "A" (
                 if finding["severity"] == "warning"}
         self.assertEqual(told, {"gone": "package.missing", "bad": "package.expression",
                                 "unset": "package.missing", "far": "package.expression"})
-        self.assertIn('@./part.png@, which @`"./${PART}.png"`@ stands for, is not in the package',
+        self.assertIn('@./part.png@, the value of @`"./${PART}.png"`@, is not in the package',
                       str([finding["message"] for finding in answer["diagnostics"]]))
         self.assertFalse(answer["complete"])
         with zipfile.ZipFile(self.package) as package:

@@ -27,7 +27,7 @@ Value field_of(const Spec* spec, Token field) {
   return value == nullptr ? Value() : *value;
 }
 
-/// Fields of all three, each once; lists of children left out.
+/// Fields of all three, each once, without lists of children.
 std::vector<Token> field_names(std::initializer_list<const Spec*> specs) {
   std::vector<Token> names;
   for (const Spec* spec : specs) {

@@ -49,7 +49,7 @@ struct MergedLayer {
 
 /// `base` with the changes that lead to `edited` and those that lead to `source`, spec by spec and
 /// field by field (merge_values.h). A spec that one side removed is gone where the other side left
-/// it and all below it alone. Children stand in the order of `edited`, or in that of `source` where
+/// it and all below it alone. Children are in the order of `edited`, or in that of `source` where
 /// no edit changed it.
 MergedLayer merge_layers(const layer::Layer& base, const layer::Layer& edited,
                          const layer::Layer& source, const MergeOptions& options = {});

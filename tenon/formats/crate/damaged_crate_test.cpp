@@ -83,8 +83,8 @@ TEST(DamagedCrate, ValuesMayHoldThemselves) {
   outer.items["inner"] = layer::Value(inner);
   layer.root().set("customLayerData", outer);
   std::string bytes = *write_crate(layer);
-  // The first dictionary stands at 88: count, key, distance 8, word. Its word is made to point at
-  // the dictionary itself.
+  // The first dictionary is at 88: count, key, distance 8, word. Its word is made to point at the
+  // dictionary itself.
   const std::uint64_t self = std::uint64_t{31} << 48 | 88;
   for (std::size_t i = 0; i < 8; ++i) {
     bytes[88 + 8 + 4 + 8 + i] = static_cast<char>(self >> (8 * i));

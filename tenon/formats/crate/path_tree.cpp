@@ -16,7 +16,7 @@
 namespace tenon::formats::crate {
 namespace {
 
-/// What a token may stand for as an element of a path; found once for each token.
+/// The role of a token as an element of a path; found once for each token.
 enum class TokenUse : std::uint8_t { Unknown, PrimName, PropertyName, Other };
 
 /// One row of the three lists.
@@ -77,8 +77,8 @@ class PathTree {
   explicit PathTree(const std::vector<Token>& tokens)
       : tokens_(tokens), uses_(tokens.size(), TokenUse::Unknown) {}
 
-  /// Every row stands where its parent or elder sibling says, as all writers have them: rows are
-  /// checked one by one and the first wrong one ends it. False: they stand in another order.
+  /// Reads rows that are all where their parent or elder sibling says, as all writers place them:
+  /// rows are checked one by one and the first wrong one ends it. False: they are in another order.
   Result<bool> build_in_order(NodeStream nodes, std::size_t node_count, std::size_t path_count) {
     TENON_CHECK(start(node_count, path_count));
     std::vector<Pending> pending;  // the siblings that are still to come
@@ -234,7 +234,7 @@ class PathTree {
     return use;
   }
 
-  /// Variant selections, targets and what stands below them, in the form they have in text.
+  /// Variant selections, targets and their descendants, in the form they have in text.
   static std::optional<Path> other_element(Path parent, Token token) {
     const std::string& text = token.str();
     if (text.empty() || text.size() > limits::kPathTextLength) {

@@ -180,7 +180,8 @@ class LayerBuilder {
     return {};
   }
 
-  /// Sets are lists of the table as they are, but for some of damaged files and old writers.
+  /// Sets are lists of the table as they are, except in some damaged files and those of old
+  /// writers.
   Result<void> check_set(std::uint32_t set) {
     const std::vector<std::uint32_t>& sets = tables_.field_sets;
     std::size_t end = set;

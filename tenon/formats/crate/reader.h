@@ -15,8 +15,7 @@ namespace tenon::formats {
 /// Reads a binary layer (.usdc) of versions 0.4.0 to 0.16.0, which is what OpenUSD 26.11 reads.
 /// Arrays longer than a few elements stay in the file until they are asked for.
 /// Errors: ErrorCode::Unsupported for other versions, by name; Corrupt for data that contradict
-/// each other or the size of the file; Limit. Diagnostics: values of types that this program does
-/// not have are left out.
+/// each other or the size of the file; Limit. Diagnostics: values of unsupported types are skipped.
 Result<layer::Layer> read_crate(std::shared_ptr<const bytes::FileBytes> bytes,
                                 std::string identifier, Diagnostics& diagnostics);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Scenes so regular that their binary layers are a thousandth of what they hold: what is written
-// is read.
+// Scenes so regular that their binary layers are a thousandth of their content: what the writer
+// writes, the reader reads.
 #include <string>
 #include <utility>
 #include <vector>

@@ -9,9 +9,9 @@
 
 namespace tenon::formats::crate {
 
-/// What is in a row as a number. Begins with where the program lies in memory, so that nobody who
-/// makes a layer can choose values that all fall into one place of the tables. What is written does
-/// not depend on it.
+/// A row's contents as a number. Seeded with the program's address in memory, so that nobody who
+/// makes a layer can choose values that all fall into one slot of the tables. The output does not
+/// depend on it.
 class RowHash {
  public:
   RowHash() : bits_(reinterpret_cast<std::uintptr_t>(&kHere)) {}
@@ -29,9 +29,9 @@ class RowHash {
   std::uint64_t bits_;
 };
 
-/// Finds rows of a table again by what is in them. Whoever asks has the rows and compares them;
-/// here are parts of their hashes and their numbers, in one array: a table has a row for each value
-/// of a layer, and an allocation for each would take longer than all else that is done with it.
+/// Finds rows of a table by their contents. The caller has the rows and compares them; here are
+/// parts of their hashes and their numbers, in one array: a table has a row for each value of a
+/// layer, and an allocation for each would take longer than all else that is done with it.
 class RowIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;

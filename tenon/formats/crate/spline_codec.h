@@ -11,8 +11,8 @@
 
 namespace tenon::formats::crate {
 
-/// The bytes of a spline but for the custom data of its knots, which lie beside it.
-/// Errors: ErrorCode::Corrupt; Unsupported for a form of a later version.
+/// Decodes a spline without the custom data of its knots, which is stored next to it. Errors:
+/// ErrorCode::Corrupt; Unsupported for a form of a later version.
 Result<layer::Spline> decode_spline(std::span<const std::byte> bytes);
 
 struct EncodedSpline {

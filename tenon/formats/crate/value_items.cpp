@@ -44,7 +44,7 @@ Result<layer::Value> ItemReader::nested(ValueWord word) {
   return value;
 }
 
-/// Copies of one text cost its size, but for the first.
+/// Copies of one text cost its size, except the first.
 Result<void> ItemReader::pay_for_text(std::uint32_t token, std::size_t size) {
   const bool is_first = size > limits::kCrateBytesPerUnit && copied_.insert(token).second;
   return is_first ? budget_.spend(1) : budget_.spend_bytes(size);
@@ -248,7 +248,7 @@ Result<std::vector<double>> ItemReader::times(ValueWord word) {
 
 namespace {
 
-/// Samples whose values could not be read are left out, as the finding about them says.
+/// Samples whose values could not be read are skipped, as the finding about them says.
 void drop_empty(layer::TimeSamples& samples) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < samples.values.size(); ++i) {

@@ -17,7 +17,7 @@ namespace tenon::formats::crate {
 
 class ValueReader;
 
-/// Decodes the parts of values that stand at an offset.
+/// Decodes the parts of values that are stored at an offset.
 class ItemReader {
  public:
   ItemReader(const Tables& tables, WorkBudget& budget, ValueReader& values)

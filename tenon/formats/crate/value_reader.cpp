@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which values are their own word: all of at most four bytes, strings, tokens and asset paths (by
 // index); a double that is a float, a 64-bit integer that fits 32, a vector of small whole numbers,
-// a matrix that is zero but for a diagonal of such, an empty dictionary. Others are at an offset.
+// a matrix that is zero except for a diagonal of such, an empty dictionary. Others are at an
+// offset.
 #include "tenon/formats/crate/value_reader.h"
 
 #include <cstring>
@@ -139,7 +140,7 @@ Result<Value> ValueReader::unsupported(ValueWord word, const char* what) {
   diagnostic.severity = Severity::Error;
   diagnostic.rule = "crate.value-unsupported";
   diagnostic.message = std::string(what) + " cannot be read from binary layers (type " +
-                       std::to_string(word.type()) + "); the value is left out";
+                       std::to_string(word.type()) + "); the value is skipped";
   diagnostics_.add(std::move(diagnostic));
   return Value();
 }

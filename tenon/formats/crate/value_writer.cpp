@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A value that 32 bits can hold without loss is its own word. Any other is encoded aside and placed
-// in the file, unless the same bytes stand there already at a fitting alignment. What a value
+// in the file, unless the same bytes are there already at a fitting alignment. What a value
 // contains is placed before it, so its own bytes are only numbers, indices and words. Equal values
 // thus have equal bytes, and the parts of nested ones are shared too. The distance that the format
 // keeps in front of such words is always the same, for they come next. The version that a file
@@ -95,7 +95,7 @@ std::uint32_t float_bits(float value) {
   return bits;
 }
 
-/// The 32 bits that stand for the whole value, where it has such.
+/// The 32 bits that hold the whole value, where they can.
 template <class T>
 std::optional<std::uint32_t> inline_bits(const T& value) {
   if constexpr (std::is_same_v<T, double>) {

@@ -250,7 +250,7 @@ class Packer {
     return target;
   }
 
-  /// What an expression stands for goes in. The expression stays, as the variables do.
+  /// The file that an expression evaluates to goes in. The expression stays, as the variables do.
   void follow_expression(const std::string& own_name, const AssetName& name) {
     const std::string& expression = name.authored;
     const Result<std::string> path =
@@ -258,8 +258,8 @@ class Packer {
     if (!path) {
       report_at(name.layer, name.spec, name.part,
                 file_finding(Severity::Warning, "package.expression",
-                             "what @" + expression +
-                                 "@ stands for is not in the package: " + path.error().message(),
+                             "the file of @" + expression +
+                                 "@ is not in the package: " + path.error().message(),
                              {}, 0, "correct the expression, or name the file"));
       return;
     }
@@ -267,7 +267,7 @@ class Packer {
     if (!target.empty() && path_to(target, own_name, *path) != *path) {
       report_at(name.layer, name.spec, name.part,
                 file_finding(Severity::Warning, "package.expression",
-                             "@" + expression + "@ stands for @" + *path +
+                             "@" + expression + "@ evaluates to @" + *path +
                                  "@, which is in the package as " + target +
                                  ", where the expression does not lead",
                              {}, 0, "move the file into the asset's folder, or name it"));
@@ -276,7 +276,7 @@ class Packer {
 
   void report_missing(const std::string& path, const AssetName& name) {
     const std::string origin =
-        path == name.authored ? "" : ", which @" + name.authored + "@ stands for,";
+        path == name.authored ? "" : ", the value of @" + name.authored + "@,";
     report_at(name.layer, name.spec, name.part,
               file_finding(Severity::Warning, "package.missing",
                            "@" + path + "@" + origin + " is not in the package: it cannot be found",

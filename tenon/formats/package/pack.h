@@ -28,8 +28,8 @@ struct PackedFile {
 /// Files that are in no place yet, by the absolute path that layers name them by.
 using MadeFiles = std::map<std::string, std::string>;
 
-/// What a variable expression of a layer (`"${NAME}.png"`, backquotes included) stands for; empty
-/// for nothing. Errors: what is wrong with it.
+/// The value of a variable expression of a layer (`"${NAME}.png"`, backquotes included); empty for
+/// nothing. Errors: what is wrong with it.
 using ReadExpression =
     std::function<Result<std::string>(const std::string& expression, const layer::Layer& layer)>;
 

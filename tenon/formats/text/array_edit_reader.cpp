@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Statements are separated by ends of line or ';'. A literal may stand where no index is asked for,
+// Statements are separated by ends of line or ';'. A literal is allowed where no index is required,
 // an index in [ ] where an element of the array itself is meant.
 #include "tenon/formats/text/array_edit_reader.h"
 
@@ -108,7 +108,7 @@ class ArrayEditReader {
     return read_value(cursor_, element_, false, literals_.emplace_back());
   }
 
-  /// `minsize 3`, `resize 3 fill 0`. OpenUSD passes over a size below zero that has a fill.
+  /// `minsize 3`, `resize 3 fill 0`. OpenUSD skips a size below zero that has a fill.
   bool read_size(ArrayEditOp plain, ArrayEditOp filled) {
     cursor_.skip_inline();
     const std::size_t start = cursor_.offset();

@@ -3,8 +3,8 @@
 //
 // Only the first error is kept. Readers return false all the way up, so what an outer reader adds
 // about the same fault is lost, and the innermost message reaches the user. Lines are counted only
-// when somebody asks for a place, and from the last place on: places in ascending order cost one
-// pass over the text.
+// when a caller asks for a place, and from the last place on: places in ascending order cost one
+// scan of the text.
 #include "tenon/formats/text/cursor.h"
 
 #include <bit>

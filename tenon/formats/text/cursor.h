@@ -46,7 +46,7 @@ class Cursor : public TextCursor {
   std::string_view peek_identifier() const;
   /// The identifiers joined by ':' at the cursor, not taken.
   std::string_view peek_namespaced() const;
-  /// Takes `word` when it stands at the cursor and ends there.
+  /// Takes `word` when it begins at the cursor and ends as a word.
   bool accept_word(std::string_view word) {
     return at_ < text_.size() && text_[at_] == word[0] && accept_whole_word(word);
   }
@@ -67,7 +67,7 @@ class Cursor : public TextCursor {
   /// The prim that the error is about, filled in by the layer reader.
   void set_prim(std::string prim) { prim_ = std::move(prim); }
   Error take_error();
-  /// Says in words what stands at the cursor.
+  /// Describes in words the text at the cursor.
   std::string found() const;
 
  private:

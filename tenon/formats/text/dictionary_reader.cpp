@@ -41,7 +41,7 @@ bool append_number(Cursor& cursor, std::string& text) {
 
 bool append_source(Cursor& cursor, std::string& text, std::size_t depth);
 
-/// A tuple or a list, whose opening character stands at the cursor.
+/// A tuple or a list, whose opening character is at the cursor.
 bool append_items(Cursor& cursor, std::string& text, char close, std::size_t depth) {
   if (depth >= limits::kTextNestingDepth) {
     return cursor.fail_at(cursor.offset(), ErrorCode::Limit, "text.depth",

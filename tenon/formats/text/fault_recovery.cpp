@@ -155,8 +155,8 @@ class Brackets {
 
   explicit Brackets(std::string_view text) : text_(text), line_(text) {}
 
-  /// A bracket that begins a line stands below the line of its partner: where it does not, one of
-  /// them is missing.
+  /// A bracket that begins a line is aligned with the line of its partner: where it does not, one
+  /// of them is missing.
   Met meet(char c, std::size_t at) {
     if (c == '(' || c == '[' || c == '{') {
       open_.push_back({c, line_.indentation_at(at)});
@@ -222,7 +222,7 @@ bool may_go_on(std::string_view text, std::size_t at) {
 }
 
 /// The bracket at `at` ends what is around the statement, and nothing that looks like more of the
-/// statement stands behind it.
+/// statement follows it.
 bool ends_outside(std::string_view text, std::size_t at, char close) {
   if (text[at] != close) {
     return false;

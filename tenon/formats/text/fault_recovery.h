@@ -17,8 +17,8 @@ namespace tenon::formats::text {
 std::optional<std::size_t> end_of_faulty_statement(std::string_view text, std::size_t start,
                                                    std::size_t fault, char close);
 
-/// Behind the '}' of a prim, variant set or variant that begins at `start`, whose words in front of
-/// its '{' have a fault at `fault`. Nothing when what stands there does not look like one.
+/// Behind the '}' of a prim, variant set or variant that begins at `start`, whose words before its
+/// '{' have a fault at `fault`. Nothing when the text there does not look like one.
 std::optional<std::size_t> end_of_faulty_block(std::string_view text, std::size_t start,
                                                std::size_t fault);
 

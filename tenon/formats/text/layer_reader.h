@@ -13,8 +13,8 @@
 
 namespace tenon::formats::text {
 
-/// Which prim directly under the root was closed last, and where the default prim was: what is told
-/// when one '}' stands too early.
+/// Which prim directly under the root was closed last, and where the default prim was: used to
+/// report a '}' that comes too early.
 struct LastClosed {
   std::string name{};
   std::uint32_t line = 0;

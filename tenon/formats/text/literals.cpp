@@ -30,7 +30,7 @@ struct Digits {
   bool negative = false;
   bool whole = true;  // no point, no exponent
   std::uint64_t mantissa = 0;
-  int count = 0;        // digits in mantissa, leading zeros left out
+  int count = 0;        // digits in mantissa without leading zeros
   int point_shift = 0;  // digits after the point
   int exponent = 0;
 };
@@ -82,7 +82,7 @@ bool is_exact(std::uint64_t mantissa, std::ptrdiff_t power) {
   return mantissa <= kExactMantissa && power >= -22 && power <= 22;
 }
 
-/// mantissa * 10^power, where that is exact but for one rounding.
+/// mantissa * 10^power, where that is exact up to one rounding.
 double scaled(std::uint64_t mantissa, std::ptrdiff_t power) {
   const auto size = static_cast<double>(mantissa);
   return power < 0 ? size / kPowersOfTen[static_cast<std::size_t>(-power)]

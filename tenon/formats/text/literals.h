@@ -48,7 +48,7 @@ std::string asset_path_text(std::string_view path);
 /// <..>; the path is empty for <>.
 bool read_path(Cursor& cursor, Path& path);
 
-/// Keeps the error that neither `separator` nor `close` "`what`" stands at the cursor.
+/// Keeps the error that neither `separator` nor `close` "`what`" is at the cursor.
 bool fail_expected_close(Cursor& cursor, std::string_view separator, char close,
                          std::string_view what);
 

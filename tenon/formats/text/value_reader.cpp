@@ -218,7 +218,7 @@ bool read_tuple(Cursor& cursor, std::size_t count, Item item) {
   return ok;
 }
 
-/// The same for tuples in the form in which programs write them, without a word about others.
+/// The same for tuples as programs write them; no error for other forms.
 template <class T>
 bool accept_plain(Cursor& cursor, T& value) {
   const std::string_view rest = cursor.rest();

@@ -59,7 +59,7 @@ enum class List : std::uint8_t {
 };
 
 /// When JSON writes a field that has its default and that does not count for the object (see
-/// `counts`): always, as null, or not at all. What is left out or null is the default.
+/// `counts`): always, as null, or not at all. A field that is omitted or null has its default.
 enum class Presence : std::uint8_t { Always, Null, WhenSet };
 
 /// What a field says, and so what compares it.

@@ -21,7 +21,7 @@ Path path_of(const PhysicsScene& scene, List list, Index index);
 
 /// What the meaning of a field depends on in the struct that it is of.
 struct OwnerFacts {
-  List switched = List::BySwitch;  ///< what List::BySwitch stands for
+  List switched = List::BySwitch;  ///< the list that List::BySwitch means
   bool angular = true;             ///< its coordinate turns, so that numbers are angles and torques
   bool has_mesh = false;           ///< a shape of a mesh
   bool is_shape = false;
@@ -29,7 +29,7 @@ struct OwnerFacts {
   bool is_joint = false;
 };
 
-/// `outer_angular`: of what the struct lies in, which holds where it says nothing of its own.
+/// `outer_angular`: of the enclosing struct; used where this one defines none.
 OwnerFacts facts_of(DataView owner, bool outer_angular = true);
 
 /// The list that an index of a field with `refers` points into.

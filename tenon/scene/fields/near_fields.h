@@ -48,8 +48,8 @@ inline bool near_matrices(const Mat3d& a, const Mat3d& b) {
   return true;
 }
 
-/// Equal but for what rounding makes of numbers, as deep as they lie: within kNear, relative to the
-/// larger one, of vectors and matrices to their largest number, of poses in metres.
+/// Equal up to the rounding of numbers, at any depth: within kNear, relative to the larger one, for
+/// vectors and matrices to their largest number, for poses in metres.
 bool near_data(DataView a, DataView b);
 
 template <class T>

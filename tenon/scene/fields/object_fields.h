@@ -38,7 +38,7 @@ struct Table<SceneParts> {
   static constexpr std::string_view kWord = "parts of vendors";
   static constexpr Rows kFields{
       field<&SceneParts::mujoco>({.name = "mujoco",
-                                  .meaning = "what MjcSceneAPI authors, but for the time step",
+                                  .meaning = "what MjcSceneAPI authors, except the time step",
                                   .presence = Presence::WhenSet,
                                   .words = "MuJoCo"}),
       field<&SceneParts::physx>(kPhysxField),

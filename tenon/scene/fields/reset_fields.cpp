@@ -112,7 +112,7 @@ bool stops(const DataType& type) { return type.is_a<MujocoActuator>() || type.is
 bool stop_acting(DataRef object) {
   if (MujocoActuator* actuator = object.get_if<MujocoActuator>()) {
     actuator->kind = MujocoActuator::Target::None;
-    actuator->fault = "left out";
+    actuator->fault = "skipped";
   } else if (Tendon* tendon = object.get_if<Tendon>()) {
     tendon->stiffness = tendon->damping = tendon->friction = tendon->armature = 0;
     tendon->range.reset();

@@ -9,7 +9,7 @@
 namespace tenon::scene {
 namespace {
 
-/// What is left of "shape.radius" below "shape"; none where it is not there.
+/// The part of "shape.radius" after "shape."; none where `field` is not below `name`.
 std::optional<std::string_view> below(std::string_view field, std::string_view name) {
   if (!field.starts_with(name)) {
     return std::nullopt;

@@ -80,7 +80,7 @@ class Translation {
 
   bool failed() const { return failed_; }
 
-  /// Mends all indices in what was copied from the one scene into the other.
+  /// Maps all indices in a value that was copied from one scene into the other.
   void mend(const OwnerFacts& owner, const FieldInfo& info, DataRef value) {
     switch (value.kind()) {
       case DataKind::Struct: {

@@ -79,7 +79,7 @@ struct Table<MujocoActuator> {
       field<&MujocoActuator::target>(
           {.name = "target", .meaning = "into joints or tendons, where it acts on one"}),
       field<&MujocoActuator::drive>(
-          {.name = "drive", .meaning = "into the joint's drives; null: it is none of them"}),
+          {.name = "drive", .meaning = "into the joint's drives; null: not a drive"}),
       field<&MujocoActuator::site>({.name = "site", .meaning = "the point, or the pin of a crank"}),
       field<&MujocoActuator::other_site>(
           {.name = "otherSite", .meaning = "what the point is seen from; the slider of a crank"}),

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The fields one after the other in the order of the tables, in the bytes that tenon/base/wire.h
-// makes of plain values: numbers as they lie in memory, counts before lists, a flag before what may
-// be absent, paths as text. Before them stands a digest of all names and sizes, so that builds with
-// other fields refuse each other's bytes. What is read comes from a stranger: no count is believed
-// before the bytes that it needs are there, and the scene is checked at the end.
+// makes of plain values: numbers as in memory, counts before lists, a flag before a value that may
+// be absent, paths as text. They are preceded by a digest of all names and sizes, so that builds
+// with other fields refuse each other's bytes. The input is untrusted: no count is believed before
+// the bytes that it needs are there, and the scene is checked at the end.
 #include "tenon/scene/fields/wire_form.h"
 
 #include <cstring>
@@ -102,7 +102,7 @@ void put(DataView value, wire::StringSink& sink) {
   }
 }
 
-/// Reads values from bytes of a stranger, which may be damaged.
+/// Reads values from untrusted bytes, which may be damaged.
 class SceneDecoder {
  public:
   explicit SceneDecoder(std::string_view bytes) : decoder_(bytes) {}

@@ -15,8 +15,8 @@ namespace tenon::scene {
 
 std::string wire_form(const PhysicsScene& scene);
 
-/// The scene that all of `bytes` is; equal to the one it was made of, bit by bit. Bytes of
-/// strangers are checked. Errors: Corrupt; Unsupported where a build with other fields wrote them.
+/// The scene encoded by all of `bytes`; equal to the original, bit by bit. Untrusted bytes are
+/// checked. Errors: Corrupt; Unsupported where a build with other fields wrote them.
 Result<PhysicsScene> read_wire_form(std::string_view bytes);
 
 /// Differs between scenes that differ in any field, provenance included.

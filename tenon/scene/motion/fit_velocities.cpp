@@ -297,7 +297,7 @@ class Group {
     return speeds;
   }
 
-  // ---- what comes of it
+  // ---- the result
 
   void write(const std::vector<double>& speeds, FittedVelocities& result) const {
     for (std::size_t m = 0; m < bodies_.size(); ++m) {
@@ -391,7 +391,7 @@ class Group {
 
 bool is_pair(const Joint& joint) { return joint.body0 && joint.body1; }
 
-/// What hangs together over joints and mimics: for each body the one that stands for its group.
+/// Bodies connected by joints and mimics: for each body the representative of its group.
 DisjointSets groups_of(const PhysicsScene& scene, const JointForest& forest) {
   DisjointSets groups(scene.bodies.size());
   const auto any_side = [&](Index j) {

@@ -20,7 +20,7 @@ struct JointMotion {
 /// `frame0` and `frame1` in world axes, about any origin.
 JointMotion joint_motion(const JointDofs& dofs, const Pose& frame0, const Pose& frame1);
 
-/// Orthonormal directions that `axes` leave out.
+/// Orthonormal directions that complete `axes`.
 std::vector<Vec3d> directions_across(const std::vector<Vec3d>& axes);
 
 /// The numbers x for which sum axes[i] x[i] is nearest to `wanted`; axes that add nothing get 0.

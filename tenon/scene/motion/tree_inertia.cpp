@@ -5,7 +5,7 @@
 namespace tenon::scene {
 namespace {
 
-constexpr double kNothing = 1e-14;  // what is left of a column's inertia when others carry it all
+constexpr double kNothing = 1e-14;  // the rest of a column's inertia when others carry it all
 
 }  // namespace
 

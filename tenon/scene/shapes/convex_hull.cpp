@@ -168,7 +168,7 @@ void span_plane(const Vec3d& normal, const Vec3d& along, Vec3d& u, Vec3d& v) {
   v = cross(normal, u);
 }
 
-/// Cells of a grid across the points, for the fewest that stand for all.
+/// Cells of a grid across the points, to pick the fewest that represent all.
 constexpr std::size_t kCells = 40;
 constexpr std::size_t kBoxCells = 12;  // kept few: boxes on all their triangles are tried
 /// Up to so many points Qhull merges facets: 10 ms at most.

@@ -10,17 +10,18 @@
 
 namespace tenon::scene {
 
-/// How far a mesh is taken apart.
+/// How finely a mesh is decomposed.
 struct Decomposition {
   int most = 32;            ///< pieces
   int vertices = 64;        ///< corners of a piece
   double concavity = 0.05;  ///< how hollow a piece may be, of the size of the mesh
 };
 
-/// What takes meshes apart and thins them out: libraries that the reader does without (S-62).
-/// tenon/approximate has them. Empty functions, and empty answers: not carried out, said as such.
+/// Convex decomposition and simplification of meshes: libraries that the reader does without
+/// (S-62). tenon/approximate has them. Empty functions, and empty answers: not carried out, and
+/// reported.
 struct MeshTools {
-  /// Convex pieces that together stand for a closed mesh. Nothing: the library is not there, which
+  /// Convex pieces that together approximate a closed mesh. Nothing: the library is missing, which
   /// shows when a mesh asks for it.
   Function<std::optional<std::vector<TriangleMesh>>(const TriangleMesh& mesh,
                                                     const Decomposition& how)>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Each kind of track has one function that brings its part of the scene to a time and says whether
-// something changed. Switches go first, because nesting decides anew what switched-off bodies hang
+// something changed. Switches go first, because nesting decides again what switched-off bodies hang
 // on. A sample holds from its own time on; steps of a simulation add up to that time only roughly.
 #include "tenon/scene/timeline/timeline.h"
 

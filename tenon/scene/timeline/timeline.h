@@ -13,8 +13,7 @@ namespace tenon::scene {
 
 /// What Timeline::advance() changed.
 struct SceneChange {
-  /// Bodies, colliders, joints, filters, shapes, masses or settings: an engine makes its model
-  /// anew.
+  /// Bodies, colliders, joints, filters, shapes, masses or settings: an engine rebuilds its model.
   bool structure = false;
   bool gravity = false;  ///< maybe; of any scene
   bool bounds = false;   ///< maybe; of the joints of PhysicsScene::bounds_tracks
@@ -40,7 +39,7 @@ class Timeline {
 
   /// Brings the scene to a time [s], which never goes back.
   SceneChange advance(double seconds);
-  /// Lets a kinematic body stand where it is until an engine moves it: it gets a track of one pose.
+  /// Keeps a kinematic body in place until an engine moves it: it gets a track of one pose.
   void hold_pose(Index body);
   /// For good: no switch makes it whole again (S-93).
   void break_joint(Index joint);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares what a text says with what it shall say and changes the statements that differ: blocks
-// here, what stands in them in metadata_layout.cpp and property_layout.cpp.
+// here, their contents in metadata_layout.cpp and property_layout.cpp.
 #include "tenon/formats/text/layout/layout_edit.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool has(const std::vector<Token>& names, Token name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Names of both that may stay where they are: the most of them that stand in the same order.
+/// Names of both that may stay where they are: the longest common subsequence.
 std::unordered_set<Token> names_in_order(const std::vector<Token>& before,
                                          const std::vector<Token>& after) {
   std::unordered_map<Token, std::size_t> place;
@@ -316,7 +316,7 @@ class BlockLayout {
   SourceRange last_;  // of the block at hand: the last statement, or the brace
 };
 
-/// Equal but for the order of properties.
+/// Equal except for the order of properties.
 bool same_meaning(const Layer& a, const Layer& b) {
   if (a.spec_count() != b.spec_count()) {
     return false;

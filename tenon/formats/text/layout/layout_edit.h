@@ -16,10 +16,10 @@ struct EditedText {
 };
 
 /// `original`, the text of a layer, changed to say what `edited` says: comments, blanks, line ends
-/// and the order of statements stay but for the statements that must change; new ones stand behind
-/// their neighbours, with their indentation. The result is proved by reading it; where that fails,
-/// or where `original` is no layer, it is the canonical text. Not kept: the order of properties,
-/// which text sorts.
+/// and the order of statements stay except for the statements that must change; new ones follow
+/// their neighbours, with their indentation. The result is verified by reading it; where that
+/// fails, or where `original` is no layer, it is the canonical text. Not kept: the order of
+/// properties, which text sorts.
 EditedText edit_text(std::string_view original, const layer::Layer& edited);
 
 }  // namespace tenon::formats

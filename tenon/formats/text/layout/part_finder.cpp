@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A finding names a field, keys and an item of a spec. They are looked for in the text from the
-// outside in, and each step compares what stands there with what is wanted. Where that fails, the
+// outside in, and each step compares the text there with the part wanted. Where that fails, the
 // range around it is the answer. Statement, field and items of the last question are kept, with the
 // items by their text, so that a list that is asked about item by item is scanned once. The bytes
 // looked at count against a bound that grows with the text. When it is used up, nothing is found

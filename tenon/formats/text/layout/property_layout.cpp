@@ -175,7 +175,7 @@ class PropertyLayout {
         reindented(head + ".timeSamples = " + samples_text(samples) + "\n", indent, state_.unit));
   }
 
-  /// Entries stand in the order of the text; new ones go behind the sample before them.
+  /// Entries are in the order of the text; new ones go behind the sample before them.
   void edit_entries(const std::vector<SampleEntry>& entries, const layer::TimeSamples& old,
                     const layer::TimeSamples& samples) {
     for (const SampleEntry& entry : entries) {

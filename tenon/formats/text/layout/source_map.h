@@ -9,7 +9,7 @@
 
 #include "tenon/base/path.h"
 
-/// Where the statements of a layer stand in its text; the reader fills it when asked to.
+/// The places of a layer's statements in its text; the reader fills it when asked to.
 namespace tenon::formats::text {
 
 /// Bytes from `begin` up to `end`.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Statements are taken apart without their meaning. The text is known to be a layer's, so the shape
-// is enough: the last word before '.', '=' or the end is a property's name and the one before it
-// its type, whatever words stand in front. A value is one literal, or everything up to the partner
-// of its opening bracket. An entry that begins with a number or a path has its key before ':',
-// another one has the last token before '='. What does not look like a statement gives nothing.
+// Statements are split without their meaning. The text is known to be a layer's, so the shape is
+// enough: the last word before '.', '=' or the end is a property's name and the one before it its
+// type, whatever words come before. A value is one literal, or everything up to the partner of its
+// opening bracket. An entry that begins with a number or a path has its key before ':', another one
+// has the last token before '='. What does not look like a statement gives nothing.
 #include "tenon/formats/text/layout/statement_text.h"
 
 #include <algorithm>

@@ -42,7 +42,7 @@ std::string TextPatch::indent_at(std::size_t at) const {
 }
 
 /// Behind the separator and a comment that may follow a statement; at the end of the line when
-/// nothing else stands there, else at what does.
+/// nothing else follows, else at what follows.
 std::size_t TextPatch::skip_rest(std::size_t at, char separator) const {
   std::size_t next = skip_inline_blanks(text_, at);
   if (next < text_.size() && text_[next] == separator) {

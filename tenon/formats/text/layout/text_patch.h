@@ -19,7 +19,7 @@ class TextPatch {
   std::string_view text() const { return text_; }
   void replace(SourceRange range, std::string by);
   void insert(std::size_t at, std::string text) { replace({at, at}, std::move(text)); }
-  /// Takes a statement away, with its line (and a comment at its end) when it stands there alone.
+  /// Removes a statement, with its line (and a comment at its end) when it is alone on it.
   /// `separator` may follow it.
   void remove(SourceRange statement, char separator = ';');
   /// Puts lines behind the line of a statement, or on lines of their own right behind it when more
@@ -30,7 +30,7 @@ class TextPatch {
 
   /// The blanks in front of the line of a byte.
   std::string indent_at(std::size_t at) const;
-  /// Only blanks stand in front of a byte on its line.
+  /// Only blanks precede a byte on its line.
   bool starts_line(std::size_t at) const;
 
   /// The new text; nothing when replacements overlap.

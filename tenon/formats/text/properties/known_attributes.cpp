@@ -11,7 +11,7 @@
 namespace tenon::formats::text {
 namespace {
 
-/// A head stands in one of two places.
+/// A head is in one of two slots.
 std::array<std::size_t, 2> places_of(std::string_view head, std::size_t slots) {
   const std::uint64_t hash = text_hash(head);
   return {static_cast<std::size_t>(hash % slots), static_cast<std::size_t>((hash >> 32u) % slots)};

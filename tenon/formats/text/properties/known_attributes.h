@@ -46,10 +46,10 @@ struct KnownAttribute {
 };
 
 /// The beginnings of attribute statements that were read, up to the '=', and the last line with
-/// each. Prims of one kind say the same of themselves over and over: equal bytes mean the same, so
-/// that a statement that begins with known ones needs no second look at its words, and one that is
-/// equal to the end of its line none at its value either. What is known is forgotten when another
-/// head takes its place; a statement that is not known is read as ever.
+/// each. Prims of one kind repeat the same statements: equal bytes mean the same, so that a
+/// statement that begins with known ones needs no second look at its words, and one that is equal
+/// to the end of its line none at its value either. An entry is forgotten when another head takes
+/// its slot; an unknown statement is read as usual.
 class KnownAttributes {
  public:
   /// The texts that are given out and asked for are parts of one text that outlives this.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 // Statements that begin as one before them, and blocks of metadata that came before, are taken over
-// from what is known. A prim reads the same when it is the only one in the text: then nothing is.
+// from the cache. A prim reads the same when it is the only one in the text, without the cache.
 #include <random>
 #include <string>
 #include <vector>
@@ -13,8 +13,8 @@
 namespace tenon::formats {
 namespace {
 
-// Some are equal but for what follows the value, some are longer by a few bytes, some mean
-// something else in another prim.
+// Some differ only after the value, some are longer by a few bytes, some mean something else in
+// another prim.
 const std::vector<std::string> kStatements = {
     "double a = 1",
     "double a = 12",
@@ -122,7 +122,7 @@ void expect_same(const layer::Spec& a, const layer::Spec& b, const std::string& 
   }
 }
 
-/// How many specs of `alone` were compared; the root is left out.
+/// How many specs of `alone` were compared, without the root.
 std::size_t compare(const layer::Layer& alone, const layer::Layer& all) {
   std::size_t compared = 0;
   for (const layer::Layer::Entry& entry : alone.entries()) {
@@ -226,7 +226,7 @@ TEST(KnownStatements, AreSharedInMemory) {
   EXPECT_TRUE(list_of("/p2").is_same(list_of("/p4")));
 }
 
-// More heads than there are places for: what is forgotten is read anew.
+// More heads than slots: what is forgotten is read again.
 TEST(KnownStatements, MayBeForgotten) {
   std::string text = "#usda 1.0\n";
   for (const char* prim : {"a", "b", "c"}) {

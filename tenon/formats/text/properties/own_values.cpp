@@ -46,7 +46,7 @@ bool read_own_value(Cursor& cursor, const OwnType& own, Value& value) {
 Path no_anchor() { return {}; }
 
 // Path expressions are kept in canonical form; those of defaults with absolute paths from
-// `anchor()` on, but for elements that an edit gives.
+// `anchor()` on, except for elements that an edit gives.
 template <class Anchor>
 void settle_expressions(LayerState& state, Value& value, std::size_t start, Anchor anchor) {
   if (const auto* edit = value.get<layer::ArrayEdit>()) {

@@ -5,7 +5,7 @@
 // The first one makes the spec. Each attribute statement repeats the type and has to agree with it,
 // so a value is read by its type at once, in any order of statements. Targets are made absolute
 // against the owner as they are read. Metadata follows a declaration alone. A statement that begins
-// as one before it takes over what is known of its head, or all its fields (known_attributes.h).
+// as one before it takes over its head, or all its fields (known_attributes.h).
 #include "tenon/formats/text/properties/property_reader.h"
 
 #include "tenon/formats/text/arc_reader.h"
@@ -326,7 +326,7 @@ class PropertyReader {
       return false;
     }
     for (Path& path : paths) {
-      // Unlike with relationships a variant that only the prim around names is left out.
+      // Unlike in relationships, a variant that only the prim around names is removed.
       const Path absolute = target_of(path, owner_).strip_variants();
       if (path.has_variants() || !is_target(absolute)) {
         return fail_target(cursor_, item_at(cursor_, start, path, paths), path,

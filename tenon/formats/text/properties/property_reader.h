@@ -21,8 +21,8 @@ bool read_known_attribute(LayerState& state, KnownAttribute& known, Path owner,
 bool read_spline(Cursor& cursor, layer::ValueType type, layer::Value& value);
 
 /// The target that `path` means in a property of `owner`, a prim or variant. A relative one counts
-/// from the prim, in which variants count as levels; the variant that the property stands in itself
-/// does not. OpenUSD 26.11.
+/// from the prim, in which variants count as levels; the property's own variant does not. OpenUSD
+/// 26.11.
 Path target_of(Path path, Path owner);
 
 }  // namespace tenon::formats::text

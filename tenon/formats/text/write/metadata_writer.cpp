@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands in parentheses is found by exclusion: all fields that no other part of the text says,
+// What goes into parentheses is found by exclusion: all fields that no other part of the text has,
 // so that one that no schema knows is not lost. The order is fixed: the comment, then fields by
 // name (those of the layer byte by byte, others as in dictionaries), then relocates of the layer.
 // Fields whose word differs from their name, or whose value has a grammar of its own, are told
@@ -32,7 +32,7 @@ bool is_arc_field(Token name) {
          name == fields::variantSelection;
 }
 
-/// True for fields that stand in the parentheses: metadata, and fields that no schema knows.
+/// True for fields that go into the parentheses: metadata, and fields that no schema knows.
 bool stands_in_metadata(Token name, SpecKind kind) {
   const bool is_prim = kind == SpecKind::Prim || kind == SpecKind::Variant;
   if (is_prim && (name == fields::typeName || is_arc_field(name))) {

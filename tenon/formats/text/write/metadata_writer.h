@@ -20,7 +20,7 @@ bool is_metadata(const layer::Field& field, layer::SpecKind kind);
 /// of a layer stand one step in. Empty for fields that are written elsewhere. The comment of a spec
 /// is the field "comment"; subLayerOffsets belong to subLayers.
 std::string metadata_field_text(const layer::Spec& spec, Token field);
-/// True for fields that stand in the parentheses of a spec.
+/// True for fields that go into the parentheses of a spec.
 bool stands_in_parentheses(Token field, layer::SpecKind kind);
 
 /// Appends the layer's own block, `(` lines `)`, when there is anything to say.

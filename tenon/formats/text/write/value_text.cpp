@@ -142,7 +142,7 @@ void append_index(std::string& out, std::int64_t index) {
   out += ']';
 }
 
-/// The element that a step writes or inserts: a literal, or what stands at an index.
+/// The element that a step writes or inserts: a literal, or the element at an index.
 void append_given(std::string& out, const layer::ArrayEdit& edit,
                   const layer::ArrayEditStep& step) {
   if (layer::literal_argument(step.op) == 0) {
@@ -208,7 +208,7 @@ void append_array_edit(std::string& out, const layer::ArrayEdit& edit) {
   out += ']';
 }
 
-/// True for characters that stand for themselves, whatever the quotes.
+/// True for characters that need no escape, whatever the quotes.
 bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; }
 
 }  // namespace

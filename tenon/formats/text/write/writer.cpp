@@ -169,7 +169,7 @@ class LayerWriter {
   }
 
  private:
-  /// What stands in the braces of a prim or a variant. Recursion follows the path.
+  /// The part in the braces of a prim or a variant. Recursion follows the path.
   void append_body(Path path, const Spec& spec, std::size_t indent) {
     if (path.depth() > limits::kPathElements) {
       return;
@@ -182,8 +182,8 @@ class LayerWriter {
     append_variant_sets(path, spec, indent + 1);
   }
 
-  /// Prims with an empty line before each, but for the first where it is the `first` of its block.
-  /// The children of one prim of a large layer are written in two halves side by side.
+  /// Prims with an empty line before each, except before the `first` of a block. The children of
+  /// one prim of a large layer are written in two halves side by side.
   void append_children(Path parent, std::span<const Token> names, std::size_t indent, bool first) {
     constexpr std::size_t kWorthHalving = 2000;  // specs
     constexpr std::size_t kLikelyEven = 8;       // children
