@@ -10,7 +10,7 @@
 /// Forces of the asset and of the user as wrenches on bodies, for engines without coordinates.
 namespace tenon::engines {
 
-/// What the asset's constant forces are while the body stands at `pose`, at its centre of mass.
+/// The asset's constant forces at the body's centre of mass, while the body is at `pose`.
 Wrench constant_wrench(const scene::Body& body, const Pose& pose);
 
 /// What efforts along a joint's coordinates do to body1: a wrench about the origin of frame 1; to

@@ -54,7 +54,7 @@ class Environments {
   /// Drives of all joints, joint by joint, and how many an environment has.
   std::size_t drive_count() const { return drives_.size(); }
   /// Position targets [m or rad], (size x drive_count), row by row; velocity targets become 0.
-  /// Drives that exert no force are passed over. Errors: Invalid for another size or such numbers.
+  /// Drives that exert no force are skipped. Errors: Invalid for another size or such numbers.
   Result<void> set_drive_positions(std::span<const double> targets);
 
  private:

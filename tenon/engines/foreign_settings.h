@@ -6,8 +6,7 @@
 
 #include "tenon/engines/simulation_values.h"
 
-/// Settings that one vendor's engine has, for the others to name: nothing is passed over in
-/// silence.
+/// Settings of one vendor's engine, which the others report: none is ignored silently.
 namespace tenon::engines {
 
 /// Of PhysX's solver, for engines that are not PhysX.

@@ -65,7 +65,7 @@ class InputLog {
   bool whole_ = true;
 };
 
-/// The inputs of bytes of a stranger, ascending by step; nullopt where they are damaged.
+/// The inputs in untrusted bytes, ascending by step; nullopt where they are damaged.
 std::optional<std::vector<Input>> read_inputs(std::string_view bytes);
 
 /// A state that is the run until then. Errors: Unsupported (rule simulation.state) where the log
@@ -83,7 +83,7 @@ struct RunToRepeat {
 Result<RunToRepeat> open_run(const StateOwner& owner, const SimulationOptions& options,
                              std::string_view bytes);
 
-/// All steps and calls of the run, on a simulation that stands at its start.
+/// All steps and calls of the run, on a simulation that is at its start.
 Result<void> repeat_run(const RunToRepeat& run, Simulation& fresh);
 
 }  // namespace tenon::engines

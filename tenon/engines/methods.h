@@ -15,7 +15,7 @@ namespace tenon::engines {
 enum class Integrator : std::uint8_t {
   Default,       ///< what the asset asks for, else the engine's
   Euler,         ///< semi-implicit; damping of joints at the end of the step
-  ImplicitFast,  ///< velocity-dependent forces at the end of the step, but for the gyroscopic ones
+  ImplicitFast,  ///< velocity-dependent forces at the end of the step, except the gyroscopic ones
   Implicit,      ///< the gyroscopic ones too
   RungeKutta4,   ///< four evaluations a step
 };

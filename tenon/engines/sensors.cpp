@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contacts, reactions and accelerations of a step are those that act where bodies stand at its
+// Contacts, reactions and accelerations of a step are those that act where bodies are at its
 // beginning, so the states before it are kept until it is over. A sensor's origin moves with its
 // body: a = a_c + w' x r + w x (w x r), where r leads from the centre of mass to it. Gravity is
 // taken off, because an accelerometer feels what holds it, not what pulls all of it alike.

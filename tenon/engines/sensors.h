@@ -9,7 +9,7 @@
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/physics_scene.h"
 
-/// What the sensors of a scene read, worked out from what every engine gives, so that none of them
+/// The readings of a scene's sensors, computed from what every engine gives, so that no engine
 /// needs to know sensors.
 namespace tenon::engines {
 
@@ -26,8 +26,8 @@ class Sensors {
  public:
   Sensors(const scene::PhysicsScene& scene, const Simulation& simulation);
 
-  /// Measures anew, without what was measured before: at the start, and where the simulation was
-  /// set back or restored.
+  /// Starts again without the former measurements: at the start, and where the simulation was reset
+  /// or restored.
   Result<void> restart();
   /// Bodies were put elsewhere between two steps.
   void look_again();

@@ -23,8 +23,8 @@ Error output_off(std::string_view output);
 
 /// Indices are those of the scene. Errors of all functions that return a Result: Unsupported (rule
 /// engine.no-ability) where the engine has no such ability, Invalid (rule simulation.argument)
-/// where an index, a count or a number cannot be used. What is set holds until it is set anew or
-/// until reset(), and wins over time samples of the asset.
+/// where an index, a count or a number cannot be used. Values that are set hold until they are set
+/// again or until reset(), and win over time samples of the asset.
 class Simulation {  // all functions inline: who derives needs no type information of the library
  public:
   Simulation() = default;
@@ -79,7 +79,7 @@ class Simulation {  // all functions inline: who derives needs no type informati
     return no_ability(Ability::BodyWrenches);
   }
   /// Moves a kinematic body to a pose X_WB [m] within the next step, with the velocity that this
-  /// takes; it then stands there.
+  /// takes; it then stays there.
   virtual Result<void> move_kinematic(scene::Index /*body*/, const Pose& /*pose*/) {
     return no_ability(Ability::KinematicPoses);
   }

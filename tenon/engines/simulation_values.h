@@ -69,7 +69,7 @@ enum class Ability : std::uint8_t {
 /// "drive targets", "joint efforts", ...
 std::string_view ability_name(Ability ability);
 
-/// What is worked out after every step so that it can be read; nothing costs nothing.
+/// What is computed after every step for reading; outputs that are off cost nothing.
 struct Outputs {
   bool contacts = false;
   bool efforts = false;
@@ -82,7 +82,7 @@ struct Outputs {
   bool operator==(const Outputs&) const = default;
 };
 
-/// When the force of a drive is worked out that acts during a step.
+/// When the force of a drive that acts during a step is computed.
 enum class DriveTerms : std::uint8_t {
   Engine,    ///< as the engine has it: implicit in velocity, which stays stable with large steps
   Explicit,  ///< of positions and velocities at the beginning of the step: what a control loop
@@ -193,7 +193,7 @@ struct Work {
   double contacts = 0;     ///< friction included
   double constraints = 0;  ///< limits, joints that close loops, mimics, distances, joint friction
   double damping = 0;      ///< of joints, bodies and tendons
-  double springs = 0;      ///< those that Energy::potential leaves out: of tendons and balls
+  double springs = 0;      ///< those not in Energy::potential: of tendons and balls
   double changes = 0;      ///< gravity, masses and states that were set or animated, impacts of
                            ///< bodies that became one
   double total() const {

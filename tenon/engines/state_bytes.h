@@ -23,8 +23,8 @@ struct StateOwner {
 /// `body` is what the engine alone understands.
 std::string seal_state(const StateOwner& owner, std::string body);
 
-/// The body of bytes of a stranger, whose contents are still to be checked. Errors: Corrupt, or
-/// Unsupported with the first thing in which the owners differ.
+/// The body of untrusted bytes, whose contents are still to be checked. Errors: Corrupt, or
+/// Unsupported with the first difference between the owners.
 Result<std::string> open_state(const StateOwner& owner, std::string_view bytes);
 
 /// Corrupt (rule simulation.state).

@@ -21,9 +21,9 @@
 #include "tenon/schema/registry.h"
 #include "tenon/stage/test_stage.h"
 
-/// No setting of a vendor's schema is passed over in silence: each property that the schema table
-/// knows is authored in turn, in a scene where it could matter, and is found to act on an engine's
-/// run, named as not read or not mapped, or harmless.
+/// No setting of a vendor's schema is ignored silently: each property that the schema table knows
+/// is authored in turn, in a scene where it could matter, and is found to act on an engine's run,
+/// named as not read or not mapped, or harmless.
 namespace tenon::engines {
 namespace {
 

@@ -51,7 +51,7 @@ class World {
   Result<void> set_joint_efforts(scene::Index joint, std::span<const double> efforts);
   Result<void> set_body_wrench(scene::Index body, const Wrench& wrench);
   /// A force [N] at a point [m], both in world axes: the wrench that it is now, until it is set
-  /// anew.
+  /// again.
   Result<void> set_body_force_at(scene::Index body, const Vec3d& force, const Vec3d& point);
   Result<void> move_kinematic(scene::Index body, const Pose& pose);
   Result<void> set_gravity(scene::Index scene, const Vec3d& gravity);

@@ -34,7 +34,7 @@ bool names_physics(Token property);
 
 /// A number of any numeric type; nullopt for anything else.
 std::optional<double> number_of(const layer::Value& value);
-/// A number that the file has as a float, as it stands there: 0.1, not 0.10000000149011612.
+/// A number that the file has as a float, as written there: 0.1, not 0.10000000149011612.
 std::string text_of_float(double value);
 
 /// Reads attribute values as the schema types them, once, at the start of the simulation.

@@ -14,8 +14,8 @@ struct FrozenSample {
   Token name;
 };
 
-/// Those with which the description could be another one at another time. One of a prototype of
-/// point instancers stands there once.
+/// Samples with which the description could differ at another time. One of a prototype of point
+/// instancers is listed once.
 std::vector<FrozenSample> frozen_samples(const ReadState& state);
 
 }  // namespace tenon::physics

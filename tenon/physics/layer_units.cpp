@@ -304,7 +304,7 @@ layer::Value scaled_value(const layer::Value& value, double factor) {
 }
 
 std::map<std::string, layer::LayerPtr> layers_in_stage_units(const stage::Stage& stage) {
-  Diagnostics said;  // by whoever reads the physics
+  Diagnostics said;  // reported by the physics reader
   const stage::StageUnits units = stage::read_stage_units(stage, said);
   std::unique_ptr<PrimsOfSpecs> prims;
   std::map<std::string, layer::LayerPtr> converted;

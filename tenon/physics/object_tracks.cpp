@@ -82,7 +82,7 @@ class ObjectTracks {
     if (codes.size() > most + authored || authored > most) {
       state_.scene.not_read.push_back(
           {Path::absolute_root(), "timeSamples",
-           "samples of settings, materials, joints and sizes are taken further apart: of " +
+           "samples of settings, materials, joints and sizes are thinned: of " +
                std::to_string(codes.size()) + " times " + std::to_string(most) +
                " are read (kObjectReadings)"});
       thin_out(codes, most);
@@ -232,7 +232,7 @@ class ObjectTracks {
   std::vector<FrozenSample> frozen_;
   MeshCache meshes_;
   std::map<std::pair<const void*, Index>, std::size_t> places_;  ///< of an object in its tracks
-  double time_ = 0;                                              ///< [s] of what is read
+  double time_ = 0;                                              ///< [s] of the reading
   const PhysicsScene* scene_ = nullptr;                          ///< that is read
   bool is_lost_ = false;           ///< states do not say all, of whatever prim
   std::unordered_set<Path> lost_;  ///< prims of whose objects they do not

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The arrays of an instancer are checked as a whole before the first instance is read: positions
-// and protoIndices must agree, arrays of another length are passed over. Points are rows, so the
-// matrix of an instance is that of its pose with each row scaled. Ids that are switched off are
-// sorted once and searched for each instance. Poses are kept for all instances, since results are
-// written back to whole arrays.
+// and protoIndices must agree, arrays of another length are skipped. Points are rows, so the matrix
+// of an instance is that of its pose with each row scaled. Ids that are switched off are sorted
+// once and searched for each instance. Poses are kept for all instances, since results are written
+// back to whole arrays.
 #include "tenon/physics/point_instancers.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include "tenon/physics/attribute_values.h"
 #include "tenon/stage/prim.h"
 
-/// The arrays of a UsdGeomPointInstancer, taken apart into instances (S-38).
+/// The arrays of a UsdGeomPointInstancer, expanded into instances (S-38).
 namespace tenon::physics {
 
 /// One instance that is drawn, and so simulated.
@@ -39,8 +39,8 @@ struct InstancerReading {
 
 /// Reads prototypes, protoIndices, positions, orientationsf (or orientations), scales, velocities
 /// and angularVelocities at the start of `values`. Instances that ids, inactiveIds and invisibleIds
-/// switch off are left out; so are those of a missing prototype. Arrays other than positions whose
-/// length is not that of protoIndices are passed over.
+/// switch off are skipped; so are those of a missing prototype. Arrays other than positions whose
+/// length is not that of protoIndices are skipped.
 InstancerReading read_point_instancer(const AttributeValues& values, const stage::Prim& prim);
 
 }  // namespace tenon::physics

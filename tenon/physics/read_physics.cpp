@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stage becomes a PhysicsScene in passes over the prims that one walk found. Each pass reads one
-// concept, converts its units to SI, and reports what it cannot take over. The S-numbers in the
-// comments of the passes name the rules of docs/physics.md.
+// A stage becomes a PhysicsScene in several passes. Each visits the prims that one walk found,
+// reads one concept, converts its units to SI, and reports what it cannot take over. The S-numbers
+// in the comments of the passes name the rules of docs/physics.md.
 #include "tenon/physics/read_physics.h"
 
 #include <algorithm>

@@ -26,8 +26,8 @@ struct ReadOptions {
   double start_time_code = kNotANumber;
   /// Which reading counts where the proposal, OpenUSD and engines disagree.
   Readings readings;
-  /// What takes meshes apart and simplifies them (S-62). Nothing: the library's own, without files
-  /// of pieces; empty functions: meshes stay whole, said as such.
+  /// Decomposes and simplifies meshes (S-62). Nothing: the library's own, without files of pieces;
+  /// empty functions: meshes stay whole, and this is reported.
   std::optional<MeshTools> mesh_tools;
   /// Where not null: meshes that were made in other readings with it are not made again.
   MeshCache* mesh_cache = nullptr;
@@ -38,8 +38,8 @@ struct ReadOptions {
 };
 
 /// Reads every physics prim of the stage. Findings about the asset go to `diagnostics` with stable
-/// rule ids; what is wrong is left out, never guessed silently. `provenance`, where not null, gets
-/// what was decided on the way.
+/// rule ids; faulty parts are skipped, never guessed silently. `provenance`, where not null, gets
+/// the decisions made on the way.
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
                           Diagnostics& diagnostics, Provenance* provenance = nullptr);
 

@@ -64,7 +64,7 @@ struct ReadState {
   std::vector<std::vector<Index>> colliders_of_body{};
   /// The transform of each body's prim is made of finite numbers; (body_count).
   std::vector<bool> body_has_place{};
-  /// Integrals of colliders whose shape stands for a rounder solid.
+  /// Integrals of colliders whose shape approximates a rounder solid.
   std::unordered_map<Index, SolidIntegrals> integrals_of_collider{};
   /// Drives of the drive API, in the order of joints.
   std::vector<DriveInstance> drive_instances{};

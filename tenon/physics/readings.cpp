@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The choices between readings of UsdPhysics, by the words that users give. The words of a row
-// stand in the order of the enumerators, so the index of a word is its value, and the default comes
+// are in the order of the enumerators, so the index of a word is its value, and the default comes
 // first.
 #include "tenon/physics/readings.h"
 
@@ -72,7 +72,7 @@ const Row kRows[] = {
      assign<&Readings::layer_units>},
     {"mass-inheritance",
      {"subtree", "own"},
-     "a mass API between body and collider: OpenUSD passes over it (S-40)",
+     "a mass API between body and collider: OpenUSD ignores it (S-40)",
      assign<&Readings::mass_inheritance>},
     {"missing-target",
      {"drop", "world"},
@@ -93,7 +93,7 @@ const Row kRows[] = {
      assign<&Readings::one_sided_limits>},
     {"point-instancers",
      {"expand", "skip"},
-     "prototypes with physics: OpenUSD's parser passes over point instancers (S-38)",
+     "prototypes with physics: OpenUSD's parser skips point instancers (S-38)",
      assign<&Readings::point_instancers>},
     {"sheared-offsets",
      {"exact", "factored"},

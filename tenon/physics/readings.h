@@ -62,7 +62,7 @@ struct Readings {
 struct ReadingChoice {
   std::string name;
   std::vector<std::string> values;  ///< the default first
-  std::string about;                ///< who reads it how
+  std::string about;                ///< which tools use which reading
   void (*set)(Readings& readings, std::size_t value);
 };
 

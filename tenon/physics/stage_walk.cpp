@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One walk down the stage finds all prims that mean something to physics. Body, mass, articulation
-// root and place are handed down from parent to child, so one visit of each prim is enough. World
-// matrices are worked out where such a prim stands: a scene may have few of them among many others.
-// Prims to visit lie on a stack, children in reverse, which gives the order of the stage without
+// root and pose are passed down from parent to child, so one visit of each prim is enough. World
+// matrices are computed only at such prims: a scene may have few of them among many others. Prims
+// to visit lie on a stack, children in reverse, which gives the order of the stage without
 // recursion. Below a point instancer only prototypes count: each is walked once per instance, with
 // paths of its own below the instancer (S-38). Instances multiply without any room in the file, so
 // the prims that they bring and the nesting of instancers are bounded; the arrays of an instancer
@@ -72,7 +72,7 @@ class Walker {
   static bool counts(const stage::Prim& prim) {
     return prim.is_active() && prim.is_defined() && !prim.is_abstract() && prim.is_loaded();
   }
-  /// Prototypes of point instancers may lie below an over or a class, so as not to be drawn.
+  /// Prototypes of point instancers may be below an over or a class, so as not to be drawn.
   static bool counts_in_prototype(const stage::Prim& prim) {
     return prim.is_active() && prim.is_loaded();
   }
@@ -123,7 +123,7 @@ class Walker {
     state.place = static_cast<std::uint32_t>(places_.size() - 1);
   }
 
-  /// The place, with its matrix, and those above worked out where that was not done yet.
+  /// The place with its matrix; computes it, and those above, where that was not done yet.
   Place& known_place(std::uint32_t index) {
     unknown_.clear();
     for (std::uint32_t i = index; i != kNone && !places_[i].known; i = places_[i].above) {
@@ -246,7 +246,7 @@ class Walker {
           values_.diagnostics(), known.prim, Severity::Warning, "point-instancer.readings",
           std::to_string(known.simulated) +
               " instances of prototypes with physics are simulated one by one; OpenUSD's parser "
-              "passes over them" +
+              "skips them" +
               (known.in_body ? ", its mass properties of the body above count each prototype once"
                              : ""),
           "use instanceable references, which all readers take alike");
@@ -373,13 +373,13 @@ class Walker {
         return true;
       }
       report(values_.diagnostics(), prim, Severity::Error, "body.nested-rejected",
-             "the body lies below another one; it is part of that",
+             "the body is below another one; it is part of that",
              "author !resetXformStack! on it, or place it beside the other",
              api_part("PhysicsRigidBodyAPI"));
       return false;
     }
     report(values_.diagnostics(), prim, Severity::Warning, "body.nested-ignored",
-           "the body lies below another one; it is part of that", "place it beside the other body",
+           "the body is below another one; it is part of that", "place it beside the other body",
            api_part("PhysicsRigidBodyAPI"));
     return false;
   }

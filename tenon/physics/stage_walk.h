@@ -27,17 +27,17 @@ struct PointInstance {
   stage::Prim instancer;
   stage::Prim prototype;
   ArrayInstance array;
-  Path scope;  ///< what stands in place of the prototype's parent
+  Path scope;  ///< the instance, in place of the prototype's parent
   Mat4d instancer_world = Mat4d::identity();
   std::uint32_t outer = 0xffffffffu;  ///< instance that the instancer lies in, or kNone
-  /// World matrix of what stands in place of the prototype's parent.
+  /// World matrix of the instance, in place of the prototype's parent.
   Mat4d placement() const { return array.local * instancer_world; }
 };
 
 /// A prim that means something to physics, met on the walk.
 struct PhysicsPrim {
   stage::Prim prim;  ///< inside an instance of a point instancer: that of the prototype
-  Path path;         ///< prim.path(), but for instances of point instancers
+  Path path;         ///< prim.path(), except in instances of point instancers
   Roles roles;
   Mat4d world = Mat4d::identity();  ///< local to world, stage units, at the start
   /// Nearest enabled body at or above, into Walk::prims (S-23).

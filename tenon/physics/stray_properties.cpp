@@ -148,7 +148,7 @@ bool StrayProperties::report_on(const AttributeValues& values, const stage::Prim
   }
   if (!roles.meant_type.empty()) {
     report(values.diagnostics(), prim, Severity::Warning, "joint.unknown-type",
-           "there is no type \"" + prim.type_name().str() + "\"; the joint is left out",
+           "there is no type \"" + prim.type_name().str() + "\"; the joint is skipped",
            "write " + roles.meant_type.str(), type_part());
   }
   return marks_sensor;

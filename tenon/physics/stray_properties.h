@@ -28,7 +28,7 @@ class StrayProperties {
 };
 
 /// API schemas of UsdPhysics and of vendors that declare a property of that name, with the instance
-/// that the name speaks of; empty for other names.
+/// that the name belongs to; empty for other names.
 std::vector<Token> physics_apis_of(Token name);
 
 }  // namespace tenon::physics

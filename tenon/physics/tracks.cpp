@@ -42,7 +42,7 @@ class TrackReader {
     if (is_coarse_) {
       state_.scene.not_read.push_back(
           {Path::absolute_root(), "timeSamples",
-           "poses between the authored samples of motions are taken further apart than four in a "
+           "poses between the authored samples of motions are sampled more coarsely than four in a "
            "frame: there are more than " +
                std::to_string(limits::kTrackSamples) + " (kTrackSamples)"});
     }

@@ -44,7 +44,7 @@ void report_mixed(const stage::Stage& stage, Token field, double used, Diagnosti
     finding.message = "the layer says " + field.str() + " = " + shortest(authored) +
                       ", the stage " + shortest(used) + "; its numbers are not converted";
     finding.fix =
-        "convert the layer, or scale where it is referenced and author masses anew; the reading "
+        "convert the layer, or scale where it is referenced and author masses again; the reading "
         "layer-units=layer converts its opinions";
     diagnostics.add(std::move(finding));
   }

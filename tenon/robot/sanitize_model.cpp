@@ -72,7 +72,7 @@ class Sanitizing {
       return;
     }
     if (inertial.mass < 0) {
-      report(inertial.place, "robot.negative-mass", whose + "has a negative mass; it is left out",
+      report(inertial.place, "robot.negative-mass", whose + "has a negative mass; it is skipped",
              "give a mass above 0");
       link.inertial.reset();
       return;

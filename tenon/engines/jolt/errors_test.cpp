@@ -36,7 +36,7 @@ TEST(JoltErrors, RefusesMethodsThatItDoesNotHave) {
   EXPECT_EQ(made.error().diagnostic().rule, "engine.method");
 }
 
-// What cannot be done is said, not left out.
+// Unsupported properties are reported.
 TEST(JoltErrors, ListsWhatIsNotMapped) {
   TestScene scene;
   scene.add_body("light", {{0, 0, 1}}, 0);

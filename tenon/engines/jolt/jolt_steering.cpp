@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is set is checked, given to Jolt and remembered, so that a model that is made anew gets it
-// again.
+// Values that the caller sets are checked, given to Jolt and remembered, so that a rebuilt model
+// gets them again.
 #include <algorithm>
 #include <cmath>
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A step writes what the asset says about its time (Timeline, StepInputs), lets MuJoCo advance, and
-// breaks joints that carried too much. Bounds and gravity MuJoCo takes as they come; for other
-// changes of the scene the model is made anew from the scene as it is now, and poses, velocities
-// and joint coordinates go over (S-28). What is read comes from the positions after the last step,
-// from which MuJoCo derives poses and velocities only when something is read.
+// breaks joints that carried too much. Bounds and gravity can be changed in the model; for other
+// changes of the scene it is rebuilt from the scene as it is now, and poses, velocities and joint
+// coordinates are carried over (S-28). Results come from the positions after the last step, from
+// which MuJoCo derives poses and velocities only when something is read.
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 
 #include <algorithm>
@@ -222,7 +222,7 @@ void MujocoSimulation::note_broken(const Restart& restart) {
   }
 }
 
-// What was worked out is of the beginning of the step, coordinates and velocities of its end.
+// Computed quantities are of the beginning of the step, coordinates and velocities of its end.
 Result<void> MujocoSimulation::watch() {
   for (const PassageWatch::Passage& passage : passages_.look(model_)) {
     const Path& other = scene_->colliders[passage.collider].path;

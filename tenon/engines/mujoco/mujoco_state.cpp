@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A state is what MuJoCo calls the state of integration, and what brings another process to the
-// same model: what the user has set, and each time that the model was made anew, with the bodies as
-// they were then. The model itself is not in it; it follows from the scene. Restoring builds a
-// second simulation and takes its place only when all went well. Everything in the bytes is checked
-// before MuJoCo sees it.
+// A state is what MuJoCo calls the state of integration, and all that another process needs for the
+// same model: the values that the user has set, and each time that the model was rebuilt, with the
+// bodies as they were then. The model itself is not in it; it follows from the scene. Restoring
+// builds a second simulation and takes its place only when all went well. Everything in the bytes
+// is checked before MuJoCo sees it.
 #include <algorithm>
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is set is checked, written into the model and remembered, so that a model that is made anew
-// gets it again. Values of the model itself (parameters, gravity) go into a copy of its own where
-// others step the same one. A kinematic body that nothing moves is a part of the world in MuJoCo:
-// the first pose that is set makes the model anew, with the body as one that is driven.
+// Values that the caller sets are checked, written into the model and remembered, so that a rebuilt
+// model gets them again. Values of the model itself (parameters, gravity) go into a copy of its own
+// where others step the same one. A kinematic body that nothing moves is a part of the world in
+// MuJoCo: the first pose that is set rebuilds the model, with the body as one that is driven.
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/engines/mujoco/run/carry_over.h"

@@ -57,7 +57,7 @@ std::vector<Kind> kinds() {
           {"planar", JointKind::D6, locked({Dof::TransZ, Dof::RotX, Dof::RotY})}};
 }
 
-// Two turned bodies whose joint stands at an angle; the second one moves and spins.
+// Two rotated bodies whose joint is at an angle; the second one moves and spins.
 TestScene pair_of(const Kind& kind, bool first_moves, bool reversed) {
   TestScene scene(0);
   const Index a = scene.add_body("A", {{0, 0, 5}}, 1, {{0.1, 0.2, 0.25}});

@@ -207,8 +207,8 @@ TEST(Steering, JointStatesThatAreSetAreReadBack) {
   EXPECT_NEAR(angle(*steered), 0.7, 1e-12);
 }
 
-// The law of a drive, worked out outside and set as an effort, moves the arm as the drive itself
-// does when that takes its force at the beginning of steps.
+// The law of a drive, computed outside and set as an effort, moves the arm as the drive itself does
+// when that takes its force at the beginning of steps.
 TEST(Steering, APdLoopOutsideEqualsExplicitDrives) {
   constexpr double kStiffness = 30;
   constexpr double kDamping = 4;

@@ -85,7 +85,7 @@ TEST(VendorSettings, EachActsIsNamedOrIsHarmless) {
   EXPECT_EQ(tally.idle,
             "PhysxCollisionAPI physxCollision:contactOffset\n"
             "PhysxParticleSystem xformOpOrder\n");
-  // These numbers stand in docs/physics.md.
+  // docs/physics.md quotes these numbers.
   EXPECT_EQ(tally.physx,
             (std::map<std::string, int>{{"acts", 125}, {"harmless", 26}, {"named", 419}}));
   EXPECT_EQ(tally.others,

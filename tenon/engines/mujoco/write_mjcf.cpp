@@ -3,8 +3,8 @@
 //
 // The model of a run as MuJoCo's own text. MuJoCo writes what its specification held when it was
 // compiled, so that numbers which follow from the compiled model (soft bounds) are compiled in once
-// more. What tenon does from step to step is no part of a model: it is listed, for the text would
-// move otherwise without a word.
+// more. Forces that tenon applies from step to step are not part of a model: they are listed, since
+// the text would otherwise silently move differently.
 #include "tenon/engines/mujoco/write_mjcf.h"
 
 #include <algorithm>
@@ -114,8 +114,8 @@ Result<void> compile_again(mjSpec& spec) {
   return {};
 }
 
-/// Where the asset speaks of MuJoCo's options, what it does not say is MuJoCo's default, not that
-/// of simulations.
+/// Where the asset authors MuJoCo's options, unauthored ones are MuJoCo's defaults, not those of
+/// simulations.
 Result<void> restore_options(const scene::PhysicsScene& scene, mjSpec& spec) {
   const bool speaks = scene.scenes.front().parts.mujoco.has_value();
   if (!speaks && !has_springs(scene)) {

@@ -11,11 +11,11 @@
 
 namespace tenon::engines::mujoco {
 
-/// The model that would be simulated, as text in MuJoCo's own format; meshes stand in it, the state
+/// The model that would be simulated, as text in MuJoCo's own format; meshes are inline, the state
 /// is that of the start. The time step is that of the scene, undivided; where the scene has
 /// MjcSceneAPI, so are all options and flags, with MuJoCo's defaults for the others. What MuJoCo
-/// cannot express goes to `diagnostics`, each as an Info named "mujoco.not-mapped". Averaged
-/// friction of two materials is worked out at run time and not in it. Errors: those of making a
+/// does not support goes to `diagnostics`, each as an Info named "mujoco.not-mapped". Averaged
+/// friction of two materials is computed at run time and not included. Errors: those of making a
 /// model.
 Result<std::string> write_mjcf(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics);

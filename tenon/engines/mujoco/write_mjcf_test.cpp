@@ -109,7 +109,7 @@ TEST(WriteMjcf, WhatStandsStillIsInTheWorldAndTouchesByTheUsualBits) {
   const auto ball = scene.add_body("Ball", {{0, 0, 1}});
   scene.add_collider("Shape", ball, sphere(0.1));
   scene.add_collider("Floor", {}, ground());
-  scene.scenes[0].parts.mujoco.emplace();  // it speaks of MuJoCo: contacts are its own
+  scene.scenes[0].parts.mujoco.emplace();  // with MuJoCo's schema contacts are MuJoCo's own
   Diagnostics findings;
   const std::string text = text_of_scene(scene, findings);
   EXPECT_FALSE(has(text, "Floor.static")) << text;

@@ -57,7 +57,7 @@ struct ReducedTree {
   scene::Index scene = 0;
 };
 
-/// How one joint stands in PhysX.
+/// How PhysX represents one joint.
 enum class JointRole : std::uint8_t {
   None,     ///< disabled, or without effect
   Reduced,  ///< a coordinate, or a ball, between a link and its parent
@@ -81,7 +81,7 @@ struct JointMap {
 };
 
 /// A spring, damper or friction that no drive of PhysX has room for: a force on a coordinate,
-/// worked out before each step.
+/// computed before each step.
 struct PassiveForce {
   scene::Index joint = 0;
   double stiffness = 0;
@@ -122,7 +122,7 @@ struct Model {
   bool is_link(scene::Index body) const;
 };
 
-/// Contacts are asked for, or what else is worked out needs them.
+/// Contacts are requested, or other outputs need them.
 inline bool needs_contacts(const Outputs& outputs) {
   return outputs.contacts || outputs.reactions || outputs.work || outputs.efforts;
 }

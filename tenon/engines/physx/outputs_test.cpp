@@ -172,7 +172,7 @@ TEST(PhysxReactions, OfAPendulumAreMassTimesAccelerationLessWeight) {
 }
 
 /// A horizontal beam of three pieces of 1 m and 1 kg on fixed joints, which begins at a wall. As a
-/// loop its last joint is left out of the tree.
+/// loop its last joint is excluded from the tree.
 TestScene beam(bool loop, bool articulated) {
   TestScene scene;
   std::optional<Index> last;

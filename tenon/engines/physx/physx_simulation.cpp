@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A step gives PhysX what the asset and the user say about its time (Timeline, StepInputs), lets it
-// advance scene by scene on this thread, and takes what it told. Where the scene changes, joints
-// that broke included, the model is made anew from the scene as it is now, with the bodies as they
-// are.
+// advance scene by scene on this thread, and takes the result. Where the scene changes, joints that
+// broke included, the model is rebuilt from the scene as it is now, with the bodies as they are.
 #include "tenon/engines/physx/physx_simulation.h"
 
 #include <algorithm>

@@ -189,7 +189,7 @@ Body read_body(ReadState& state, const PhysicsPrim& found, Index scene) {
 }
 
 /// Nested bodies are bodies of their own (S-24); one finding per outermost body. Links of a robot
-/// stand below each other on purpose, as Isaac Sim's importers write them.
+/// are nested on purpose, as Isaac Sim's importers write them.
 void report_nesting(const ReadState& state) {
   std::vector<std::uint32_t> nested(state.walk.prims.size(), 0);
   std::vector<bool> all_links(state.walk.prims.size(), true);
@@ -206,12 +206,12 @@ void report_nesting(const ReadState& state) {
   }
   for (std::size_t i = 0; i < nested.size(); ++i) {
     if (nested[i] > 0) {
-      state.report(
-          state.walk.prims[i].prim, all_links[i] ? Severity::Info : Severity::Warning,
-          "body.nested",
-          std::to_string(nested[i]) + " rigid bodies lie below this one; each moves on its own",
-          "author !resetXformStack! on them, or place them beside each other, for engines "
-          "that reject nested bodies");
+      state.report(state.walk.prims[i].prim, all_links[i] ? Severity::Info : Severity::Warning,
+                   "body.nested",
+                   std::to_string(nested[i]) +
+                       " rigid bodies are nested below this one; each moves on its own",
+                   "author !resetXformStack! on them, or place them beside each other, for engines "
+                   "that reject nested bodies");
     }
   }
 }

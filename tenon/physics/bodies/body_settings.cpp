@@ -15,7 +15,7 @@
 namespace tenon::physics {
 namespace {
 
-/// PhysX's own, where an asset says nothing of a body.
+/// PhysX's own default, for bodies on which the asset authors none.
 constexpr double kPhysxAngularDamping = 0.05;  // [1/s]
 constexpr double kPhysxMaxSpin = 100;          // [rad/s]
 

@@ -18,7 +18,7 @@ inline constexpr double kDefaultDensity = 1000;  ///< [kg/m^3] where nothing els
 inline constexpr double kDefaultMass = 1;  ///< units of mass, of a body without colliders (S-42)
 inline constexpr double kDefaultRadius = 0.1;  ///< [m] of the ball that gives its inertia (M-18)
 
-/// What is authored about the mass of one prim, in SI; absent where unset (S-41, S-44..S-46).
+/// The authored mass properties of one prim, in SI; absent where unset (S-41, S-44..S-46).
 struct AuthoredMass {
   std::optional<double> mass;     ///< [kg]
   std::optional<double> density;  ///< [kg/m^3]

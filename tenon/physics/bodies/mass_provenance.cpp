@@ -48,7 +48,7 @@ bool authors(const PhysicsPrim& found, Token name) {
   return found.prim.has_property(name) && found.prim.attribute(name).has_authored_value();
 }
 
-/// An opinion that is there but counts as unset, or stands where its API is not applied.
+/// An opinion that is there but counts as unset, or whose API is not applied.
 void add_passed_over(const PhysicsPrim& found, Token name, const char* rule, const char* why,
                      Chain& chain) {
   if (!authors(found, name)) {

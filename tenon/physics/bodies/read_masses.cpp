@@ -17,7 +17,7 @@
 namespace tenon::physics {
 namespace {
 
-/// What has a share in the mass: PhysX leaves out triggers, which are no matter.
+/// Colliders that contribute mass: PhysX skips triggers, which have none.
 bool counts(const Collider& collider) { return collider.enabled && !collider.settings.trigger; }
 
 /// A positive finite number, or nothing (S-41).
@@ -193,7 +193,7 @@ class BodyMassComputation {
                        length(*own_.center - sum.center) > 1e-6 * (1 + length(sum.center));
     if (moved) {
       state_.report(found_.prim, state_.tokens.center_of_mass, Severity::Info, "mass.center-moved",
-                    "physics:centerOfMass lies beside that of the colliders; the moments of "
+                    "physics:centerOfMass differs from that of the colliders; the moments of "
                     "inertia grow by the parallel-axis term, as in OpenUSD, or stay as in Newton",
                     "author physics:diagonalInertia with it");
     }
@@ -342,8 +342,8 @@ class BodyMassComputation {
     }
   }
 
-  /// Prims between a collider and its body whose mass is that of what lies below; the one that has
-  /// the last word first.
+  /// Prims between a collider and its body whose mass is that of their descendants; the one that
+  /// has the last word first.
   std::vector<std::uint32_t> mass_groups_of(Index i) {
     std::vector<std::uint32_t> found;
     for (std::uint32_t at = group_of(i); at != kNone; at = state_.walk.prims[at].mass_above) {
@@ -468,7 +468,7 @@ void report_between(const ReadState& state) {
       const bool counts = state.readings.mass_inheritance == MassInheritance::Subtree;
       state.report(found.prim, Severity::Warning, "mass.between",
                    std::string("PhysicsMassAPI between a body and its colliders ") +
-                       (counts ? "counts for what lies below; OpenUSD passes over it"
+                       (counts ? "counts for its descendants; OpenUSD ignores it"
                                : "is ignored, as in OpenUSD"),
                    "apply it to the body or to the colliders", api_part("PhysicsMassAPI"));
     }

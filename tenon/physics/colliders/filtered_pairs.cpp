@@ -127,8 +127,8 @@ class PairFilter {
     return list;
   }
 
-  /// What a prim of a filtered pair stands for: a body's colliders, an articulation's links, one
-  /// collider, or all that lies below any other prim (S-81).
+  /// The colliders that a prim of a filtered pair means: a body's colliders, an articulation's
+  /// links, one collider, or all below any other prim (S-81).
   Colliders meant_by(Path path) const {
     Colliders list;
     if (const std::uint32_t found = state_.walk.index_of(path); found != kNone) {
@@ -191,7 +191,7 @@ class PairFilter {
       return state_.colliders_of_body[*body];
     }
     if (target.empty() || other.has_prefix(target)) {
-      return {};  // the world, or a prim above the other side that stands for it
+      return {};  // the world, or a prim above the other side that means it
     }
     Colliders list = below(target);
     std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });

@@ -3,10 +3,10 @@
 //
 // Points are moved by the whole matrix of their prim into the collider's rigid frame, so any scale
 // and shear is exact. Faces become fans; the winding is turned when either the orientation is
-// left-handed or the matrix mirrors, but not both. What stands for the mesh is what the asset asks
-// for, changed where the body moves (S-64) or where it cannot be carried out, and each change is
-// said. A face of n corners makes n - 2 triangles in the order of faces, from which subsets of
-// faces find theirs. Meshes made from the same arrays and placement may come from a cache.
+// left-handed or the matrix mirrors, but not both. The mesh is approximated as the asset asks for,
+// changed where the body moves (S-64) or where that is not possible, and each change is reported. A
+// face of n corners makes n - 2 triangles in the order of faces, from which subsets of faces find
+// theirs. Meshes made from the same arrays and placement may come from a cache.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -62,7 +62,7 @@ bool is_hole(const std::vector<std::int32_t>& holes, std::size_t face) {
   return std::binary_search(holes.begin(), holes.end(), static_cast<std::int32_t>(face));
 }
 
-/// What a mesh prim under the matrix `world` is in the collider's rigid frame, but for its arrays.
+/// A mesh prim under the matrix `world` in the collider's rigid frame, without its arrays.
 MeshSource placed_source(const ReadState& state, const ShapeSource& source, const Mat4d& world) {
   MeshSource mesh;
   mesh.linear = upper_left(world);
@@ -350,8 +350,8 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
   return indices;
 }
 
-/// A mesh that stands for an ellipsoid and has its semi-axes (docs/conversion.md). Nothing where
-/// its scale bends these, or another approximation is asked for.
+/// A mesh that represents an ellipsoid and has its semi-axes (docs/conversion.md). Nothing where
+/// its scale shears these, or another approximation is asked for.
 std::optional<ShapeReading> read_ellipsoid(const ReadState& state, const ShapeSource& source) {
   const auto axes = source.found.prim.attribute(state.tokens.ellipsoid).get_as<Vec3d>();
   const auto kind = source.found.prim.attribute(state.tokens.approximation).get_as<Token>();
@@ -390,7 +390,7 @@ std::optional<ShapeReading> read_faces(ReadState& state, const ShapeSource& sour
   const Approximation asked = approximation_of(state, source);
   const Approximation kind = settle(state, source, asked);
   ShapeReading reading;
-  if (!shared && !all_finite(mesh)) {  // nothing can stand for it; who asked says so
+  if (!shared && !all_finite(mesh)) {  // nothing can approximate it; the caller reports it
     reading.shape.kind = ShapeKind::Mesh;
     reading.shape.mesh = add_mesh(state, std::move(made));
     return reading;
@@ -488,7 +488,7 @@ void read_face_materials(ReadState& state, Index index) {
     if (collider.shape.kind != ShapeKind::Mesh) {
       state.not_read(
           child, "material:binding",
-          "what stands for the mesh has no faces of it; the material of the mesh counts");
+          "the mesh's approximation does not keep its faces; the material of the mesh counts");
       continue;
     }
     const auto faces = state.values.get<layer::Array<std::int32_t>>(child, "indices");

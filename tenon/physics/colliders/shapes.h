@@ -14,7 +14,7 @@ namespace tenon::physics {
 struct ShapeReading {
   Shape shape;
   Pose pose;  ///< of the shape in the collider's rigid frame
-  /// Integrals in the shape's frame where the shape stands for a rounder solid.
+  /// Integrals in the shape's frame where the shape approximates a rounder solid.
   std::optional<SolidIntegrals> integrals;
   std::optional<Approximation> approximation;  ///< of meshes: what the asset asks for
 };

@@ -91,9 +91,9 @@ class ActuatorReader {
     state_.values.report_target(prim, tokens_.target, targets.empty() ? Path() : targets.front(),
                                 Severity::Error, "actuator.target-missing",
                                 targets.empty()
-                                    ? "mjc:target names nothing; the actuator is left out"
+                                    ? "mjc:target names nothing; the actuator is skipped"
                                     : "mjc:target names <" + targets.front().str() +
-                                          ">, which is not a joint; the actuator is left out",
+                                          ">, which is not a joint; the actuator is skipped",
                                 "name one joint in mjc:target");
     return std::nullopt;
   }

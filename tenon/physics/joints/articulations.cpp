@@ -44,7 +44,7 @@ class ArticulationReader {
     if (found.articulation_root != kNone) {
       // S-113
       drop(found, "articulation.nested",
-           "an articulation root lies below <" +
+           "an articulation root is below <" +
                state_.walk.prims[found.articulation_root].path.str() + ">",
            "remove the inner PhysicsArticulationRootAPI");
       return;

@@ -5,7 +5,7 @@
 // numbers go to SI by the factors of drive_units. Gains about an axis are authored per degree
 // (S-13). Those of acceleration drives hold no mass, because they act on the effective inertia
 // (S-104). A drive without an effect is kept and reported; one for an axis that the joint lacks is
-// left out.
+// skipped.
 #include "tenon/physics/joints/drives.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gears and racks of PhysX couple the coordinates of two joints that are there already, from where
-// they stand at the start:
+// Gears and racks of PhysX couple the coordinates of two existing joints, relative to their values
+// at the start:
 //   PhysxPhysicsGearJoint           turn of hinge1 = -gearRatio * turn of hinge0
 //   PhysxPhysicsRackAndPinionJoint  turn of hinge in degrees = ratio * way of prismatic
 // Each becomes a mimic of the joint that the law is written for; the coupling acts both ways. As

@@ -17,8 +17,7 @@ void drop(const ReadState& state, const stage::Prim& joint, Token name, Path tar
   const bool world = state.readings.missing_target == MissingTarget::World;
   state.values.report_target(
       joint, name, target, Severity::Error, rule,
-      std::move(why) + (world ? "; the world is taken" : "; the joint is left out"),
-      std::move(fix));
+      std::move(why) + (world ? "; the world is used" : "; the joint is skipped"), std::move(fix));
 }
 
 /// The prim that a side names; an invalid one when it is unusable (S-87), reported.

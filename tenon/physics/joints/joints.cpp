@@ -58,21 +58,21 @@ double break_limit(const ReadState& state, const stage::Prim& prim, Token name, 
 bool sides_fit(const ReadState& state, const stage::Prim& prim, const Joint& joint) {
   if (!joint.body0 && !joint.body1) {
     state.report(prim, Severity::Error, "joint.no-body",
-                 "neither side of the joint is a rigid body; the joint is left out",
+                 "neither side of the joint is a rigid body; the joint is skipped",
                  "name a rigid body in physics:body0 or physics:body1");
     return false;
   }
   if (joint.body0 == joint.body1) {
     state.report(prim, state.tokens.body1, Severity::Error, "joint.same-body",
                  "both sides of the joint are the body <" +
-                     state.scene.bodies[*joint.body0].path.str() + ">; the joint is left out",
+                     state.scene.bodies[*joint.body0].path.str() + ">; the joint is skipped",
                  "name two bodies");
     return false;
   }
   if (joint.body0 && joint.body1 &&
       state.scene.bodies[*joint.body0].scene != state.scene.bodies[*joint.body1].scene) {
     state.report(prim, Severity::Error, "joint.across-scenes",
-                 "the bodies of the joint belong to different scenes; the joint is left out",
+                 "the bodies of the joint belong to different scenes; the joint is skipped",
                  "give both bodies the same physics:simulationOwner");
     return false;
   }

@@ -233,7 +233,7 @@ class CycleSearch {
     }
   }
 
-  /// Joint and mimic to be left out of each cycle, the first one of it in order.
+  /// Joint and mimic to skip in each cycle: its first one in order.
   std::vector<std::pair<Index, Index>> run() {
     std::vector<Index> seen(joint_of_.size(), kNone);
     std::vector<std::pair<Index, Index>> found;

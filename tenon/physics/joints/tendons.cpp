@@ -73,7 +73,7 @@ class TendonReader {
 
  private:
   bool refuse(Token property, std::string why) {
-    state_.not_read(found_.prim, property.str(), std::move(why) + "; the tendon is left out");
+    state_.not_read(found_.prim, property.str(), std::move(why) + "; the tendon is skipped");
     return false;
   }
 

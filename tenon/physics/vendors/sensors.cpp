@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sensors are the prims of Isaac's sensor schema that measure bodies, and prims that say with
-// tenon:sensor what they are: no published schema has a word for force-torque sensors and for those
-// of joints. A sensor belongs to the nearest enabled body at or above its prim and keeps its place
-// in it. One that has nothing to measure is left out with a finding. Light and radar are not
-// simulated, which the list of what is not read says.
+// Sensors are the prims of Isaac's sensor schema that measure bodies, and prims that name their
+// kind in tenon:sensor: no published schema defines force-torque sensors and those of joints. A
+// sensor belongs to the nearest enabled body at or above its prim and keeps its place in it. One
+// that has nothing to measure is skipped with a finding. Light and radar are not simulated, and are
+// listed under what is not read.
 #include <algorithm>
 #include <cmath>
 

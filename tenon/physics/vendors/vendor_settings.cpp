@@ -33,7 +33,7 @@ void note_vendor_settings(ReadState& state, const stage::Prim& prim, DefinitionM
   }
 }
 
-/// S-38: bodies and colliders below a point instancer that is passed over.
+/// S-38: bodies and colliders below a point instancer that is skipped.
 void note_instancer(ReadState& state, const PhysicsPrim& found) {
   if (state.readings.point_instancers == PointInstancers::Expand) {
     return;
@@ -47,7 +47,7 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
                      "as asked, instances of a point instancer are not simulated");
       state.report(
           found.prim, Severity::Warning, "point-instancer.readings",
-          "the point instancer has prototypes with physics; as asked, it is passed over like by "
+          "the point instancer has prototypes with physics; as asked, it is skipped, as in "
           "OpenUSD's parser",
           "use instanceable references, which all readers take alike");
       return;

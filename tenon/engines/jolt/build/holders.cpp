@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// What a joint locks is held by the constraint of Jolt that is made for it: fixed, hinge, slider,
-// point, swing and twist for cones, distance, and six degrees of freedom for all others. What it
-// bounds is no part of them, but for cones and distances (laws.cpp).
+// The locked degrees of freedom of a joint are held by the Jolt constraint made for it: fixed,
+// hinge, slider, point, swing and twist for cones, distance, and six degrees of freedom for all
+// others. Bounds are not part of them, except for cones and distances (laws.cpp).
 #include <algorithm>
 #include <array>
 #include <cmath>

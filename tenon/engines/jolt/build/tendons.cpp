@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A tendon along joints is a law of the sum of their coordinates: a spring with a slack between two
-// lengths is two soft bounds, its range two more. Tendons along a path in space are left out, and
-// said.
+// lengths is two soft bounds, its range two more. Tendons along a path in space are unsupported and
+// reported.
 #include <algorithm>
 
 #include "tenon/engines/jolt/build/build.h"
@@ -21,7 +21,7 @@ std::vector<CoordinateOf> parts_of(Build& build, const scene::Tendon& tendon) {
     if (!map.acts || map.dofs.free.size() != 1 || map.dofs.ball) {
       build.report(tendon.path, "",
                    "<" + build.scene.joints[joint].path.str() +
-                       "> is not a single coordinate here; the tendon is left out");
+                       "> is not a single coordinate here; the tendon is skipped");
       return {};
     }
     parts.push_back(coordinate_of(build, joint, 0));

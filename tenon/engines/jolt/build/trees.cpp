@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The joints of the scene's own forest are held tree by tree (TreeHolder), but for those that may
+// The joints of the scene's own forest are held tree by tree (TreeHolder), except those that may
 // break, which end a tree there, cones, which Jolt's constraints bound, and trees that are too deep
 // for it: chains of hundreds of links, whose inertia has an entry for each pair of links.
 #include <algorithm>

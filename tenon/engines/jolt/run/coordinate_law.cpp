@@ -5,7 +5,7 @@
 //   speed + softness * impulse = wanted
 // at the end of the step, within its bounds. Softness 0 is hard; that of a spring is 1 / (dt d),
 // and what it wants is the speed at which damper and spring are at rest. Numbers are in double
-// precision, but for what Jolt has of bodies.
+// precision, except Jolt's states of bodies.
 #include "tenon/engines/jolt/run/coordinate_law.h"
 
 #include <cmath>
@@ -91,8 +91,8 @@ double bound_at(const LawTerm& term, double speed) {
   return std::max(most, 0.0);
 }
 
-/// The speed of a coordinate is its direction's product with the difference of velocities: of
-/// several turns about axes that are not at right angles, each has to leave out the others.
+/// The speed of a coordinate is its direction's product with the difference of velocities: for
+/// several turns about axes that are not at right angles, each direction must exclude the others.
 Vec3d turn_direction(const std::vector<Vec3d>& turns, std::size_t index) {
   if (turns.size() == 1) {
     return turns[0];
@@ -190,9 +190,10 @@ void CoordinateLaw::add_part(std::size_t index) {
   }
 }
 
-// An impulse along the coordinate alone tears at the joint, which its holder then has to mend over
-// many iterations, and moves a light link as if it were free. So it goes along with the impulses
-// with which the joint stays whole: j' = j + sum x h, where h M^-1 j' = 0 for all that is held.
+// An impulse along the coordinate alone tears at the joint, which its holder then has to correct
+// over many iterations, and moves a light link as if it were free. So it goes along with the
+// impulses with which the joint stays whole: j' = j + sum x h, where h M^-1 j' = 0 for all that is
+// held.
 void CoordinateLaw::keep_joints_whole() {
   const std::size_t count = held_.size();
   Direction along;

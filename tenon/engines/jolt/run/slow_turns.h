@@ -8,9 +8,9 @@
 
 namespace tenon::engines::jolt {
 
-/// Jolt leaves out what a body turns in a step where that is a millionth of a radian or less: at
-/// steps of 1 ms all that turns slower than 1e-3 rad/s stands still, and drives stop short of their
-/// targets. Here such turns are added up until they are large enough.
+/// Jolt ignores a body's rotation in a step where it is a millionth of a radian or less: at steps
+/// of 1 ms all that turns slower than 1e-3 rad/s does not move, and drives stop short of their
+/// targets. Here such rotations are summed until they are large enough.
 class SlowTurns {
  public:
   SlowTurns() = default;

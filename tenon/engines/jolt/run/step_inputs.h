@@ -9,7 +9,7 @@
 
 namespace tenon::engines::jolt {
 
-/// What is given to Jolt before every step: drives, bodies and colliders that follow the asset's
+/// The inputs of Jolt before every step: drives, bodies and colliders that follow the asset's
 /// samples, forces on bodies and along coordinates, and the laws of joints.
 class StepInputs {
  public:

@@ -58,7 +58,7 @@ class TreeHolder final : public JPH::Constraint {
   /// What body 0 exerted on body 1 through a joint during the last step about the origin of frame
   /// 1, as impulses.
   Wrench impulse(scene::Index joint) const;
-  /// Mass and inertia of a body that were set anew.
+  /// Changes the mass and inertia of a body.
   void set_mass(scene::Index body, double mass, const Mat3d& inertia);
 
   // NOLINTBEGIN(readability-identifier-naming): names of Jolt

@@ -11,8 +11,8 @@
 //
 // Other readers do not know that actuator. Text has the common affine one, whose force
 // k u - k q - d v is the same as long as v* = 0. Where v* is something else, a second actuator
-// d u - d v stands beside k u - k q, and the joint clamps their sum. A drive that has an effort but
-// no gains is the limit of its joint: whoever drives that robot finds it there.
+// d u - d v is added to k u - k q, and the joint clamps their sum. A drive that has an effort but
+// no gains is the limit of its joint: a controller of that robot finds it there.
 namespace tenon::engines::mujoco {
 namespace {
 

@@ -24,7 +24,7 @@ struct Inertial {
 };
 
 /// MuJoCo's compiler refuses text in which one principal moment is larger than the others together.
-/// What rounding has raised above is put down to it without a word, all else with one.
+/// Excess from rounding is clamped silently, any other is clamped and reported.
 void obey_triangle(Build& build, const scene::Body& body, Vec3d& moments) {
   constexpr double kFloatRounding = 1e-6;  // relative
   const auto largest = std::max_element(moments.v.begin(), moments.v.end());
@@ -145,7 +145,7 @@ void add_fixed_body(Build& build, scene::Index index) {
   build.bodies[index] = target;
 }
 
-// The body stands where its joint's frames coincide (all free coordinates zero), so that MuJoCo's
+// The body is placed where its joint's frames coincide (all free coordinates zero), so MuJoCo's
 // joint coordinates are those of UsdPhysics.
 void add_jointed_body(Build& build, scene::Index index) {
   const scene::Body& body = build.scene.bodies[index];

@@ -78,7 +78,7 @@ struct Build {
   std::vector<NotMapped> not_mapped;
   std::map<MeshKey, std::string> mesh_names;  ///< of those that colliders have made
   std::set<std::string> sites;                ///< names of those that site_at made
-  std::set<Path> refused;  ///< colliders that are left out, joints that get no limits
+  std::set<Path> refused;  ///< colliders that are skipped, joints that get no limits
   double driven_mass = 0;  ///< of bodies that follow a pose track [kg]
 
   void report(const Path& prim, std::string property, std::string why) {
@@ -136,7 +136,7 @@ struct SpecAndModel {
   Model model;
 };
 
-/// All passes. A part that MuJoCo refuses is left out with a warning.
+/// All passes. A part that MuJoCo refuses is skipped with a warning.
 Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                 Diagnostics& diagnostics, Begin begin = Begin::Start,
                                 Purpose purpose = Purpose::Run);
@@ -173,7 +173,7 @@ void add_chain(Build& build, scene::Index joint, mjsBody* child, const Pose& joi
 mjsBody* side_body(Build& build, const std::optional<scene::Index>& body);
 /// A joint frame seen from the MuJoCo body of that side.
 Pose side_frame(const Build& build, const std::optional<scene::Index>& body, const Pose& frame);
-/// The site that stands for a place, made when first asked for; its name.
+/// The name of the site at a place, made when first asked for.
 std::string site_at(Build& build, const scene::TendonWrap::Attachment& place);
 /// Sets name, position and orientation.
 void place(mjsBody* body, const std::string& name, const Pose& pose);

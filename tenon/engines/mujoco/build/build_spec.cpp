@@ -3,8 +3,8 @@
 //
 // The list of passes: neutral scene -> mjSpec -> mjModel. Each pass names what those before it
 // made, so bodies come first, then joints and what acts on them, then geoms, then filters and
-// surfaces, which look at the geoms. MuJoCo refuses whole models. The part that its words name is
-// left out (of a joint, its limits), and all passes run again on a fresh spec, at most 100 times.
+// surfaces, which look at the geoms. MuJoCo refuses whole models. The part that its message names
+// is skipped (of a joint, its limits), and all passes run again on a fresh spec, at most 100 times.
 #include <set>
 #include <string_view>
 
@@ -18,7 +18,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr std::size_t kMaxRefused = 100;  // parts that are left out before the model is given up
+constexpr std::size_t kMaxRefused = 100;  // parts that are skipped before the model is given up
 constexpr std::size_t kDeepest = 1023;    // bodies below each other that MuJoCo takes
 static_assert(kDeepest <= limits::kKinematicChain);
 
@@ -132,7 +132,7 @@ Result<SpecAndModel> build_spec(const scene::PhysicsScene& scene, const Simulati
       append_untold(findings, diagnostics);
       return SpecAndModel{std::move(build.spec), std::move(*model)};
     }
-    // MuJoCo refuses whole models: what it names is left out, and said.
+    // MuJoCo refuses whole models: the part that it names is skipped and reported.
     const Path part = refused_part(scene, model.error().message());
     if (part.empty() || refused.size() >= kMaxRefused || !refused.insert(part).second) {
       append_untold(findings, diagnostics);

@@ -4,7 +4,7 @@
 // What is not a degree of freedom of the tree: loop joints (connect and weld between sites), bounds
 // of distances (limited tendons), cones (a tendon between the tips of the two axes), and mimics
 // (joint equalities). A loop joint that needs a coordinate has it on a light auxiliary body. All
-// hold as hard as the time step allows, but for mimics with a softness of their own and distances
+// hold as hard as the time step allows, except mimics with a softness of their own and distances
 // that are violated at the start.
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ void add_auxiliary_body(Build& build, scene::Index index) {
 /// What MuJoCo's schemas say of a constraint, on a joint that is none.
 void report_unused_loop(Build& build, const Joint& joint) {
   const scene::MujocoLoop& loop = joint.parts.mujoco_loop;
-  const char* const why = "no constraint stands for this joint; exclude it from the articulation";
+  const char* const why = "this joint is not a constraint; exclude it from the articulation";
   if (!loop.solref.empty()) {
     build.report(joint.path, "mjc:solref", why);
   }

@@ -95,8 +95,8 @@ Classes classify(const scene::PhysicsScene& scene, bool statics_apart) {
   return classes;
 }
 
-/// MuJoCo itself keeps apart what stands in the world. Only a kinematic body, or what follows a
-/// track, is for it something that moves.
+/// MuJoCo itself excludes pairs of static geoms. To MuJoCo only a kinematic body, or one that
+/// follows a track, moves.
 bool all_but_statics_move(const scene::PhysicsScene& scene) {
   return std::none_of(scene.bodies.begin(), scene.bodies.end(),
                       [](const scene::Body& body) { return body.kinematic; }) &&

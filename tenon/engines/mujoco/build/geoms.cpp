@@ -140,11 +140,11 @@ class ColliderPass {
   void add() {
     find_place();
     if (build_.refused.contains(collider_.path)) {
-      build_.report(collider_.path, "extent", "MuJoCo refuses the shape; left out");
+      build_.report(collider_.path, "extent", "MuJoCo refuses the shape; skipped");
       return;
     }
     if (!has_size()) {
-      build_.report(collider_.path, "extent", "MuJoCo has no shape of size zero; left out");
+      build_.report(collider_.path, "extent", "MuJoCo has no shape of size zero; skipped");
       return;
     }
     add_shape();
@@ -309,7 +309,7 @@ class ColliderPass {
 
   void add_plane(const Pose& rotated) {
     if (!is_static_) {
-      build_.report(collider_.path, "axis", "MuJoCo planes cannot move; left out");
+      build_.report(collider_.path, "axis", "MuJoCo planes cannot move; skipped");
       return;
     }
     add_geom(mjGEOM_PLANE, rotated, {{0, 0, 1}});
@@ -336,7 +336,7 @@ class ColliderPass {
     }
     for (const scene::FaceMaterial& faces : collider_.face_materials) {
       build_.report(faces.subset, "material:binding",
-                    "the hull that stands for the moving mesh has one material, that of the mesh");
+                    "the convex hull of the moving mesh has one material, that of the mesh");
     }
     add_pieces(hull_pieces(mesh.points, up()));
     build_.report(collider_.path, "physics:approximation",

@@ -119,7 +119,7 @@ Result<void> set_velocities(const PhysicsScene& scene, Begin begin, Model& model
   for (std::size_t b = 0; b < states.size(); ++b) {
     const BodyMap& map = model.bodies[b];
     if (model.plan.bases[b] != BodyBase::Jointed) {
-      continue;  // stands where the scene says
+      continue;  // is where the scene says
     }
     states[b].pose = Pose{read_vector(d->xpos + std::ptrdiff_t{3} * map.id),
                           read_quaternion(d->xquat + std::ptrdiff_t{4} * map.id)} *

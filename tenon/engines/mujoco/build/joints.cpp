@@ -91,7 +91,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
     write_vector(target->axis, axis);
     const bool refused = build.refused.contains(joint.path);
     refused ? build.report(joint.path, "limit:" + std::string(dof_name(dof.dof)),
-                           "MuJoCo refuses the limits; left out")
+                           "MuJoCo refuses the limits; skipped")
             : set_limit(target, dof, joint.parts.mujoco, build.time_step);
     if (const scene::LimitSpring* spring = limit_spring(joint, dof.dof)) {
       set_spring(build, joint, *spring, target);

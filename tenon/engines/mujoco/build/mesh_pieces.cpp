@@ -160,7 +160,7 @@ bool is_closed(const scene::TriangleMesh& mesh) {
   return true;
 }
 
-// Every point lies behind every triangle (either winding); only asked for closed meshes.
+// Every point is behind every triangle (either winding); only called for closed meshes.
 bool is_convex(const scene::TriangleMesh& mesh, double size) {
   if (mesh.triangles.size() * mesh.points.size() > limits::kConvexityChecks || !is_closed(mesh)) {
     return false;
@@ -215,7 +215,7 @@ MeshPieces one_hull(const std::vector<Vec3d>& points, std::string note) {
 MeshPieces hull_pieces(const std::vector<Vec3d>& points, const Vec3d& up) {
   const Plane plane = plane_of(points);
   if (plane.normal == Vec3d{}) {
-    return {{}, "a mesh whose points lie on a line has no surface to touch; left out"};
+    return {{}, "a mesh whose points lie on a line has no surface to touch; skipped"};
   }
   if (plane.thickness > kFlat * plane.size) {
     return one_hull(points, "");

@@ -24,7 +24,7 @@ class ActuatorPass {
     if (made == nullptr || !set_actuator_kinds(from, *made)) {
       build_.report(from.path, "mjc:target",
                     (why.empty() ? "MuJoCo has no such gain, bias or dynamics" : why) +
-                        "; the actuator is left out");
+                        "; the actuator is skipped");
       if (made != nullptr) {
         mjs_delete(build_.spec.get(), made->element);
       }
@@ -84,7 +84,7 @@ void add_mujoco_actuators(Build& build) {
   ActuatorPass pass(build);
   for (const MujocoActuator& actuator : build.scene.actuators) {
     if (build.refused.contains(actuator.path)) {
-      build.report(actuator.path, "mjc:target", "MuJoCo refuses the actuator; left out");
+      build.report(actuator.path, "mjc:target", "MuJoCo refuses the actuator; skipped");
     } else {
       pass.add(actuator);
     }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tables pair the asset's names of settings with fields and bits of mjOption. Both directions use
-// the same tables, so what is written can be read back. MuJoCo's bits that disable something are
-// named by what they leave on, and are turned over. A difference from MuJoCo's defaults that has no
-// name in the tables is told to the caller instead of lost.
+// the same tables, so the writer's output can be read back. MuJoCo's bits that disable something
+// are named by what they leave on, and are inverted. A difference from MuJoCo's defaults that has
+// no name in the tables is returned to the caller instead of lost.
 #include "tenon/engines/mujoco/build/option_fields.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 // is raised only where the spring is too stiff for the time step: MuJoCo's step is explicit in r
 // and v.
 //
-// Limits of joints without a word about it are softer than equalities. Who stands beyond a limit by
+// Limits of joints without authored softness are softer than equalities. A joint beyond a limit by
 // x comes back with at most x / (e T), T the time constant: as hard as the step allows (T = 5 ms at
 // 2 ms), robots that start outside fly apart, which MuJoCo's own 20 ms survive. How deep a limit
 // gives way under a load depends on the impedance alone times T^2, and costs no stability until it

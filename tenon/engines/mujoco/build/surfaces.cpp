@@ -146,7 +146,7 @@ std::array<double, 2> contact_solref(double restitution, double time_step) {
   return {-stiffness * kHighImpedance * kHighImpedance, -(low + high) / 2 * kHighImpedance};
 }
 
-/// In text of an asset that speaks of MuJoCo, what it does not say is MuJoCo's default.
+/// In text of an asset with MuJoCo's schemas, unauthored values are MuJoCo's defaults.
 bool keeps_defaults(const Build& build) {
   return build.purpose == Purpose::Text && build.scene.scenes.front().parts.mujoco.has_value();
 }

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Tendons of the asset. What they go through or around is made for them, named after its prim and
-// shared by all that use it: a site, or a sphere or cylinder that nothing touches. A tendon with a
-// joint that is no single coordinate here is left out as a whole: without one of its terms its
+// Tendons of the asset. Their sites and wrapping geoms are made for them, named after their prim
+// and shared by all that use them: a site, or a sphere or cylinder without contacts. A tendon with
+// a joint that is not a single coordinate here is skipped as a whole: without one of its terms its
 // length would mean something else.
 #include <algorithm>
 #include <iterator>
@@ -69,7 +68,7 @@ class TendonPass {
       if (joint(index) == nullptr) {
         build_.report(tendon.path, "mjc:path",
                       "<" + build_.scene.joints[index].path.str() +
-                          "> is not a single coordinate here; the tendon is left out");
+                          "> is not a single coordinate here; the tendon is skipped");
         return false;
       }
     }

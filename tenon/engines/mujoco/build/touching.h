@@ -7,7 +7,8 @@
 /// Contacts of curved shapes that only just touch. MuJoCo finds their normals by an algorithm that
 /// loses them within about 1e-11 m of exact touching, and an asset often starts there: a cylinder
 /// whose axis is its radius above the floor. Such a contact then pushes aside with the full force
-/// of an impact. Left out, the shapes are deeper after one step of gravity, and the normal is good.
+/// of an impact. Without it, the shapes are deeper after one step of gravity, and the normal is
+/// good.
 namespace tenon::engines::mujoco {
 
 /// Whether a model has shapes with such contacts.

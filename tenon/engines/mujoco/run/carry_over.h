@@ -6,9 +6,9 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/simulation.h"
 
-/// What goes from one model of a scene to the next, when the scene changed so much that the model
-/// is made anew. Poses and velocities of bodies go through the scene, where a joint or a merged
-/// body that is new acts by its impulse.
+/// The state carried from one model of a scene to the next, when the scene changed so much that the
+/// model is rebuilt. Poses and velocities of bodies go through the scene, where a new joint or
+/// merged body acts by its impulse.
 namespace tenon::engines::mujoco {
 
 /// Coordinates of joints that are in both trees: they know turns that poses do not.

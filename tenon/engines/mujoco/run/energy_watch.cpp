@@ -4,8 +4,8 @@
 // Force times mean velocity (v + v') / 2 times dt is the work of a step, which adds up to the
 // change of kinetic energy exactly, whatever the integrator made of the step. What may add energy
 // is summed up from it: velocity drives, forces from outside, contacts, prescribed motion. Limits,
-// loops, dampers and what is left by the integrator may not: they only move energy about or take
-// it. A drive towards a position may neither, beyond what its spring held at the start and what its
+// loops, dampers and the integrator's residual may not: they only move energy about or take it. A
+// drive towards a position may neither, beyond what its spring held at the start and what its
 // target was moved by, so that a drive that is too stiff for the step is found too. A scene is
 // given headroom: ten times its energy at the start and the work of its weight over its own size;
 // real motion stays far below, a simulation that explodes passes it within a few steps. Sums are
@@ -240,7 +240,7 @@ double EnergyWatch::work_of(const double* forces, const Model& model) const {
   return twice * model.model->opt.timestep / 2;
 }
 
-// What is left of all forces without those of springs, dampers and drives.
+// The work of all forces except springs, dampers and drives.
 double EnergyWatch::work_from_outside(const Model& model) const {
   const mjData& d = *model.data;
   double twice = 0;
@@ -279,8 +279,8 @@ double EnergyWatch::work_of_contacts(const Model& model) const {
   return work;
 }
 
-// In place of the work on driven bodies themselves that on what hangs on them: what turned a driven
-// body aside, but for constraints, came through the joints of its tree.
+// Instead of the work on driven bodies themselves, that on what hangs on them: whatever moved a
+// driven body aside, except constraints, came through the joints of its tree.
 double EnergyWatch::work_of_driven(const Model& model) const {
   const mjModel& m = *model.model;
   const mjData& d = *model.data;

@@ -21,10 +21,10 @@ class EnergyWatch {
   EnergyWatch() = default;
   EnergyWatch(const scene::PhysicsScene& scene, const Model& model);
 
-  /// State or numbers were changed from outside: it is judged anew from the next step on.
+  /// State or numbers were changed from outside: start again with the next step.
   void restart() { fresh_ = true; }
-  /// Before MuJoCo advances, when all inputs are written. `pushed`: in this step forces act other
-  /// than when it was judged anew.
+  /// Before MuJoCo advances, when all inputs are written. `pushed`: the forces of this step differ
+  /// from those at the last start.
   void begin(const Model& model, bool pushed);
   /// After it has and speeds are cut, before anything else is derived or written. A value: nothing
   /// explains the energy; derive_motion() has run then.

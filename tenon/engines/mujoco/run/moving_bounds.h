@@ -15,7 +15,7 @@ class MovingBounds {
   MovingBounds(const scene::PhysicsScene& scene, const Model& model);
 
   /// Gives the model the bounds of the joints as the scene has them now. False where it lacks a
-  /// coordinate or a tendon for that: it has to be made anew.
+  /// coordinate or a tendon for that: it must be rebuilt.
   bool write(const scene::PhysicsScene& scene, Model& model) const;
 
  private:

@@ -20,8 +20,8 @@ BodyState read_body_state(const scene::PhysicsScene& scene, const Model& model, 
 JointState read_joint_state(const scene::PhysicsScene& scene, const Model& model,
                             scene::Index joint);
 /// Kinetic energy of bodies and armatures; potential of gravity (zero at the world's origin) and of
-/// passive springs. Kinematic bodies and drives are left out.
-/// `gravity` is that of each scene now [m/s^2] (scene_count).
+/// passive springs. Kinematic bodies and drives do not count. `gravity` is that of each scene now
+/// [m/s^2] (scene_count).
 Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
                    std::span<const Vec3d> gravity);
 /// The centre of mass of a body, world [m].

@@ -19,7 +19,7 @@ struct BrokenJoint {
   double torque = 0;  ///< [N m]
 };
 
-/// A model that was made anew in the middle of a run: what brings another process to it.
+/// A rebuild of the model in the middle of a run: what another process needs to repeat it.
 struct Restart {
   double time = 0;         ///< [s]
   double advanced_to = 0;  ///< [s] of the timeline before; < 0: it was not

@@ -9,10 +9,10 @@
 
 namespace tenon::engines::mujoco {
 
-/// What is written into a model before every step: drives, bodies and colliders that follow the
-/// asset's time samples, and forces that MuJoCo does not know, which are acceleration drives,
-/// drives whose maximum depends on the speed, the damping of bodies on joints and constant forces.
-/// Nothing in most scenes.
+/// The inputs of a model before every step: drives, bodies and colliders that follow the asset's
+/// time samples, and forces that MuJoCo does not know, which are acceleration drives, drives whose
+/// maximum depends on the speed, the damping of bodies on joints and constant forces. Nothing in
+/// most scenes.
 class StepInputs {
  public:
   StepInputs() = default;
@@ -21,7 +21,7 @@ class StepInputs {
 
   /// Velocities are asked for, so that derive_motion() must have run.
   bool needs_motion() const { return !pushed_bodies_.empty(); }
-  /// Some of what is written are forces on bodies.
+  /// Whether the inputs include forces on bodies.
   bool has_forces() const { return !pushed_bodies_.empty() || !driven_bodies_.empty(); }
   void before_step(Model& model) {
     if (!empty_) {

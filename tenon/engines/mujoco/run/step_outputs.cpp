@@ -6,7 +6,7 @@
 //   M (v' - v) / dt = forces that MuJoCo names + correction,
 // and the correction belongs to damping, as far as damping alone makes one, else to drives. Work is
 // force times mean velocity (v + v') / 2 times dt, which adds up to the change of kinetic energy
-// exactly while M does not change. Reactions and accelerations are worked out by MuJoCo from the
+// exactly while M does not change. MuJoCo computes reactions and accelerations from the
 // accelerations (v' - v) / dt in place of its own, and from v, so that they too are what happened.
 #include "tenon/engines/mujoco/run/step_outputs.h"
 
@@ -48,7 +48,7 @@ bool damps_implicitly(const mjModel& m) {
   }
 }
 
-// Gravity that a body does not feel is a force from outside, which MuJoCo leaves out of those
+// Gravity that a body does not feel is an external force, which MuJoCo does not count among those
 // between bodies.
 class LiftedBodies {
  public:

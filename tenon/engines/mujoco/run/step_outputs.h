@@ -10,7 +10,7 @@
 
 namespace tenon::engines::mujoco {
 
-/// What is worked out of a step beside the state, as far as it is asked for.
+/// The outputs of a step beside the state, computed as far as requested.
 class StepOutputs {
  public:
   StepOutputs() = default;

@@ -50,7 +50,7 @@ class VelocityCaps {
     std::vector<int> turns;     ///< degrees of freedom that turn
     std::vector<int> ways;      ///< those that move
     std::vector<int> slides;    ///< coordinates of slides
-    double reach = 0;           ///< no two points are farther apart, but for slides [m]
+    double reach = 0;           ///< no two points are farther apart, without slides [m]
     double linear = kInfinity;  ///< the least of its links
     double angular = kInfinity;
   };

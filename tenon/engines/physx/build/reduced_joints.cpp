@@ -31,7 +31,7 @@ void set_frames(const Joint& joint, JointMap& map) {
   map.link_joint->setChildPose(map.reversed ? side0 : side1);
 }
 
-/// The world is an anchor link that stands in the joint's own frame.
+/// The world is an anchor link at the joint's own frame.
 void set_anchor(const Joint& joint, JointMap& map) {
   const bool to_world = map.reversed ? !joint.body1.has_value() : !joint.body0.has_value();
   if (!to_world) {

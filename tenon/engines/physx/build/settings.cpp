@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Without a word of the asset projected Gauss-Seidel solves, with 16 iterations. The other solver,
-// TGS, applies drives of trees once more per iteration of velocities, so that it gets none of these
+// By default the solver is projected Gauss-Seidel with 16 iterations. The other solver, TGS,
+// applies drives of trees once more per iteration of velocities, so that it gets none of these
 // unless the asset wants them; and a box that falls 5 m with 2 cm/s sideways then slides by 12 cm.
 // Nothing falls asleep unless a threshold is authored.
 #include "tenon/engines/physx/build/settings.h"

@@ -3,8 +3,8 @@
 //
 // Coordinates are read off the relative poses of joint frames; what they cannot express is reported
 // (S-90), and an authored joint position replaces them. Velocities are those that the joints make
-// of the bodies' own (fit_velocities). A tree takes coordinates and speeds when it stands in its
-// scene, and puts its links where they belong.
+// of the bodies' own (fit_velocities). A tree takes coordinates and speeds once it is in its scene,
+// and puts its links where they belong.
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/start_coordinates.h"
 #include "tenon/scene/motion/fit_velocities.h"

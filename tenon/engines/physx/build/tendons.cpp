@@ -127,7 +127,7 @@ void write_law(const TendonLaw& law, double count, px::PxArticulationTendon& ten
 }
 
 void leave_out(Build& build, const Tendon& tendon, const char* why) {
-  build.report(tendon.path, "", std::string(why) + "; the tendon is left out");
+  build.report(tendon.path, "", std::string(why) + "; the tendon is skipped");
 }
 
 void add_fixed(Build& build, const Tendon& source) {

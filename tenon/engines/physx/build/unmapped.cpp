@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the scene says and PhysX 5.1 here does not do; nothing is passed over in silence.
+// Properties of the scene that PhysX 5.1 does not support here; none is ignored silently.
 #include <algorithm>
 
 #include "tenon/engines/foreign_settings.h"

@@ -9,7 +9,7 @@
 
 namespace tenon::engines::physx {
 
-/// What is given to PhysX before every step: drives, bodies and colliders that follow the asset's
+/// The inputs of PhysX before every step: drives, bodies and colliders that follow the asset's
 /// samples, forces on bodies and coordinates. Nothing in most scenes.
 class StepInputs {
  public:
@@ -48,7 +48,7 @@ class StepInputs {
   std::vector<Wrench> applied_;
   std::vector<Wrench> joint_pushes_;
   bool has_pushes_ = false;  ///< something of the two lists above is not 0
-  bool has_forces_ = false;  ///< forces of coordinates hold until they are set anew
+  bool has_forces_ = false;  ///< forces of coordinates hold until they are set again
 };
 
 }  // namespace tenon::engines::physx

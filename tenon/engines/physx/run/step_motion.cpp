@@ -76,8 +76,8 @@ bool is_tree_joint(const StepMotion& step, Index joint) {
   return child.has_value() && step.moves_freely(*child);
 }
 
-/// The constraint pushed in the last step: PhysX lets the force of an earlier step stand where it
-/// did not, because nothing is locked and all is within its bounds.
+/// The constraint pushed in the last step: where it did not, because nothing is locked and all is
+/// within its bounds, PhysX keeps reporting the force of an earlier step.
 bool acted(const StepMotion& step, Index index) {
   const scene::Joint& joint = step.scene.joints[index];
   const std::vector<double>& at = step.before.joints[index].position;

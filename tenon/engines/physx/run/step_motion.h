@@ -18,7 +18,7 @@ struct Motion {
 /// read_caches() must have run.
 Motion read_motion(const scene::PhysicsScene& scene, const Model& model);
 
-/// One step from its beginning to its end, and what is known of what acted during it.
+/// One step from its beginning to its end, and the known forces of it.
 struct StepMotion {
   const scene::PhysicsScene& scene;
   const Model& model;

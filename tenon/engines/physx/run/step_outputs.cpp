@@ -23,7 +23,7 @@ double mean(double a, double b) { return (a + b) / 2; }
 
 /// What drives exerted along one coordinate after the other. The spring is that of the beginning of
 /// the step, the damper that of its end, and at least k dt (drives.h). By acceleration the law is
-/// one of accelerations, and what is left of the joint's own torque is the drive's.
+/// one of accelerations, and the rest of the joint's own torque is the drive's.
 std::vector<double> drive_efforts(const scene::Joint& joint, const StepMotion& step, Index index,
                                   double left_over) {
   const scene::JointDofs& dofs = step.model.joints[index].dofs;

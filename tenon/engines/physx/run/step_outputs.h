@@ -9,13 +9,13 @@
 
 namespace tenon::engines::physx {
 
-/// What is worked out after every step for those who asked for it.
+/// The outputs that are computed after every step on request.
 class StepOutputs {
  public:
   StepOutputs() = default;
   explicit StepOutputs(const Outputs& wanted) : wanted_(wanted) {}
 
-  /// Something is worked out of how things moved.
+  /// Whether an output is computed from the motion.
   bool follows_motion() const {
     return wanted_.accelerations || wanted_.reactions || wanted_.work || wanted_.efforts;
   }
