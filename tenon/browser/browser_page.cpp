@@ -309,7 +309,7 @@ Result<std::unique_ptr<BrowserPage>> BrowserPage::open(const BrowserOptions& opt
     return fault(ErrorCode::Limit, "browser.page-too-large",
                  "the page is too large to be handed to a browser: " +
                      std::to_string(html.size() >> 20) + " MB")
-        .with_fix("thin out what is drawn (--simplify)");
+        .with_fix("simplify the picture's meshes (--simplify)");
   }
   auto state = std::make_unique<State>();
   state->options = options;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scripts of a shell stand for Chromium. They do not listen: what is asked comes in a known order,
-// so the answers are said in advance.
+// Shell scripts replace Chromium. They do not listen: requests come in a known order, so the
+// answers are said in advance.
 #include "tenon/browser/browser_page.h"
 
 #include <cstdlib>

@@ -4,8 +4,8 @@
 
 #include "tenon/compose/indexer.h"
 
-/// Internal: one prim index from that of its parent. What is asked of `services` and the layers is
-/// all that it depends on.
+/// Internal: one prim index from that of its parent. It depends only on its queries of `services`
+/// and the layers.
 namespace tenon::compose {
 
 /// The index of the pseudo-root, which has no arcs.

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Writes what composition made in the text form that the published suite records, so that the two
-// can be compared. The walk through all prims is depth first with a list of what is open instead of
-// recursion. Nodes stand parents first, so one pass over them knows every depth.
+// Writes the result of composition in the text form that the published suite records, so that the
+// two can be compared. The walk through all prims is depth first with a list of open prims instead
+// of recursion. Nodes come parents first, so one scan knows every depth.
 #include "tenon/compose/dump_index.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// Instances share what lies below them. Shared is what comes over arcs of the prim itself; opinions
-// of the prim and of its ancestors' arcs on what is below do not count.
+// Instances share their descendants. Opinions over arcs of the prim itself are shared; opinions of
+// the prim and of its ancestors' arcs on what is below do not count.
 #include "tenon/base/text/text_number.h"
 #include "tenon/compose/indexer.h"
 #include "tenon/layer/fields.h"
@@ -11,7 +11,7 @@ namespace {
 
 /// Visits nodes strongest first, each with whether it can be shared: it has specs that count and
 /// was brought in by an arc of this prim. `visit` returns true to go on below the node. Culled
-/// subtrees are left out.
+/// subtrees are skipped.
 template <class Visit>
 void walk_shareable(const NodeGraph& graph, const Visit& visit) {
   NodeIds open(0);

@@ -27,7 +27,7 @@ namespace {
 namespace fields = layer::fields;
 
 constexpr std::size_t kLayerUnits = 20;     // of work for a layer of a stack
-constexpr std::size_t kFindingUnits = 400;  // for one that is left out
+constexpr std::size_t kFindingUnits = 400;  // for one that is skipped
 
 struct Sublayer {
   layer::LayerPtr layer;
@@ -86,7 +86,7 @@ class Builder {
     if (!limit_reported_) {
       limit_reported_ = true;
       report(error_class::kCapacityExceeded, layer,
-             "there are too many sublayers; the rest is left out", "use fewer sublayers", {});
+             "there are too many sublayers; the rest is skipped", "use fewer sublayers", {});
     }
   }
 
@@ -168,7 +168,7 @@ class Builder {
     }
     if (std::find(open_.begin(), open_.end(), opened->get()) != open_.end()) {
       report(error_class::kSublayerCycle, layer,
-             "sublayer @" + path + "@ contains this layer again and is left out",
+             "sublayer @" + path + "@ contains this layer again and is skipped",
              "break the cycle of sublayers", authored);
       return nullptr;
     }

@@ -71,13 +71,13 @@ struct LayerStackInputs {
   layer::LayerPtr root;
   layer::LayerPtr session;  ///< may be null
   const LayerOpener* opener = nullptr;
-  const std::set<std::string>* muted = nullptr;  ///< identifiers of layers to leave out
+  const std::set<std::string>* muted = nullptr;  ///< identifiers of layers to skip
   const LayerStack* override_source = nullptr;   ///< whose expression variables win; may be null
   WorkMeter* work = nullptr;  ///< counts it, and ends it when there is no more; may be null
 };
 
 /// Opens all sublayers and composes offsets, expression variables and relocates. Never fails: what
-/// cannot be opened or contradicts itself is in `errors` and left out.
+/// cannot be opened or contradicts itself is reported in `errors` and skipped.
 std::shared_ptr<LayerStack> build_layer_stack(const LayerStackInputs& inputs);
 
 /// Finite, and time goes forward.

@@ -9,7 +9,7 @@ namespace tenon::compose {
 bool is_muted(const std::set<std::string>& muted, const std::string& asset_path,
               const layer::Layer& anchor) {
   if (muted.empty()) {
-    return false;  // as in nearly all scenes: no path is taken apart
+    return false;  // as in nearly all scenes: no path is parsed
   }
   if (muted.count(asset_path) != 0) {
     return true;

@@ -97,12 +97,12 @@ class NodeGraph {
   void set_inert(NodeId id, bool inert);
   void set_culled(NodeId id);
 
-  /// A specialize node copied below the root, where its strength belongs: its origin is the node
-  /// at the same site that stands where the arc was authored or implied.
+  /// A specialize node copied below the root, where its strength belongs: its origin is the node at
+  /// the same site at which the arc was authored or implied.
   bool is_propagated_specialize(NodeId id) const;
   /// The copy below the root of a specialize node; kNoNode when there is none.
   NodeId propagated_specialize(NodeId id) const;
-  /// Children of a class-based node stand below its copy when it has one.
+  /// Children of a class-based node are below its copy when it has one.
   NodeId owner_of_children(NodeId id) const;
   bool has_class_based_child(NodeId id) const;
   bool has_specialize_in_subtree(NodeId id) const;

@@ -207,7 +207,7 @@ struct PrimIndex {
     const Opinion* const like = kept_opinions.like();
     return like == nullptr ? Opinions(kept_opinions.own()) : Opinions(only_opinion(*like));
   }
-  /// Where there is one, it is `like` but for its spec and its place, see MapPool::like.
+  /// Where there is one, it equals `like` except for its spec and place, see MapPool::like.
   void set_opinions(std::span<const Opinion> found, const Opinion* like) {
     if (found.size() == 1) {
       kept_opinions.be_like(*like);

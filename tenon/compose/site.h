@@ -71,8 +71,8 @@ std::vector<std::string> composed_variant_sets(const LayerStack& stack, Path pat
 std::vector<std::string> variant_options(const LayerStack& stack, Path path,
                                          const std::string& set);
 bool has_variant_selections(const LayerStack& stack, Path path);
-/// The strongest selection for `set`; false when none is authored. Selections whose expression is
-/// wrong are diagnosed and passed over.
+/// The strongest selection for `set`; false when none is authored. Selections with a faulty
+/// expression are diagnosed and skipped.
 bool composed_variant_selection(const LayerStack& stack, Path path, const std::string& set,
                                 std::string* selection, Diagnostics* errors);
 /// Adds the selections of this site for sets that have none in `selections` yet.

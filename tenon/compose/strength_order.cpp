@@ -4,7 +4,7 @@
 // Siblings compare by kind of arc, depth in namespace, origin, and place in their list. Origins are
 // nodes that are linked in order of strength already, so of two the first in the walk is stronger:
 // climb to children of a common parent, then run along the siblings from both at once, which takes
-// no more steps than lie between them. A specialize may stand below the root, far from where it was
+// no more steps than lie between them. A specialize may be below the root, far from where it was
 // authored, and is followed along its origins back to the authored arc.
 #include "tenon/compose/strength_order.h"
 
@@ -71,7 +71,7 @@ int tree_order(const NodeGraph& graph, NodeId a, NodeId b) {
                       : sibling_order(graph, at.a, at.b);
 }
 
-/// One lies below the other, going from a copied specialize to where it was authored.
+/// One is below the other, going from a copied specialize to where it was authored.
 bool is_below(const NodeGraph& graph, NodeId id, NodeId above) {
   std::size_t steps = 0;
   while (id != kNoNode && id != above) {

@@ -3,7 +3,7 @@
 //
 // Targets are authored in the namespace of a node. Each list edit is mapped to the stage's
 // namespace, paths in brackets included, and then applied from the weakest opinion to the
-// strongest. A path without an image is left out and reported. An explicit list takes back what
+// strongest. A path without an image is skipped and reported. An explicit list takes back what
 // weaker opinions reported, and a deletion what was reported about its target. With a cache the
 // rules are those of composition alone, without it those of a stage: they differ in which targets
 // of a class they refuse.

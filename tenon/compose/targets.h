@@ -21,7 +21,7 @@ struct PropertyOpinion {
 };
 
 /// Specs of property `name`, strongest first. Those of another kind (attribute, relationship) than
-/// the strongest are left out and diagnosed.
+/// the strongest are skipped and diagnosed.
 std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token name,
                                                Diagnostics* errors);
 
@@ -34,7 +34,7 @@ struct TargetList {
 };
 
 /// Combines the list edits of all opinions, each mapped through its node. A class may not target
-/// what uses it; such targets are left out.
+/// what uses it; such targets are skipped.
 TargetList compose_targets(IndexCache& cache, const PrimIndex& index, Token property);
 
 /// The same as a stage has it: targets in other prims that use the class stay, what relocates bring

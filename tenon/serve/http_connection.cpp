@@ -29,7 +29,7 @@ std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<long>(seconds * 1000));
 }
 
-/// What a page may do: use what this server hands out and nothing else in the world.
+/// What a page may do: use what this server serves and nothing else.
 std::string content_policy(std::string_view host) {
   return "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
          "img-src 'self' data: blob:; worker-src 'self' blob:; connect-src 'self' blob: ws://" +

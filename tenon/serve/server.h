@@ -3,7 +3,8 @@
 //
 // A server for one program on one machine: pages that it was handed, behind a secret token, and
 // WebSockets that carry text both ways and frames of bytes to every client. It has no files behind
-// it, so there is no path to leave. What strangers can make it keep is bounded by ServerLimits.
+// it, so there is no path to leave. What untrusted clients can make it keep is bounded by
+// ServerLimits.
 #pragma once
 
 #include <cstddef>

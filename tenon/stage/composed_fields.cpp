@@ -130,8 +130,8 @@ layer::Dictionary localize_dictionary(const Place& place, const layer::Dictionar
   return result;
 }
 
-// Legacy edits (add, reorder) do not combine with others: they are passed over, and alone count
-// where the strongest is one. As OpenUSD combines list-valued metadata.
+// Legacy edits (add, reorder) do not combine with others: they are skipped, except that the
+// strongest one counts alone. As OpenUSD combines list-valued metadata.
 template <class T>
 std::vector<T> combined_list(std::span<const compose::Opinion> opinions, Token field,
                              UsedSpecs* used) {
@@ -156,7 +156,7 @@ std::vector<T> combined_list(std::span<const compose::Opinion> opinions, Token f
   return result;
 }
 
-/// A field whose opinions combine, and who asks which of them do.
+/// A field whose opinions combine, and where to note which of them do.
 struct Combination {
   std::span<const compose::Opinion> opinions;
   Token field;

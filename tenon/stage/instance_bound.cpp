@@ -91,7 +91,7 @@ class Counter {
     diagnostic.message = "instances within instances make more than " + std::to_string(most_) +
                          " prims; what is below <" + first_->source_path().str() + ">" +
                          (cuts_ > 1 ? " and " + std::to_string(cuts_ - 1) + " more" : "") +
-                         " is left out";
+                         " is skipped";
     diagnostic.file = data_.cache->layer_stack()->identifier();
     diagnostic.prim = first_->source_path().str();
     diagnostic.fix = "reduce the references that multiply with each other";

@@ -127,7 +127,7 @@ class Populator {
     last.message = "there are more than " + std::to_string(limits::kStageFindings) +
                    " findings of composition; no more are given";
     last.file = data_.cache->layer_stack()->identifier();
-    last.fix = "mend the first of them";
+    last.fix = "fix the first of them";
     data_.diagnostics.add(std::move(last));
   }
 
@@ -137,7 +137,7 @@ class Populator {
       Diagnostic diagnostic;
       diagnostic.rule = "stage.too-many-prims";
       diagnostic.message = "the stage has more than " + std::to_string(data_.options.max_prims) +
-                           " prims; those from <" + path.str() + "> on are left out";
+                           " prims; those from <" + path.str() + "> on are skipped";
       diagnostic.file = data_.cache->layer_stack()->identifier();
       diagnostic.prim = path.str();
       diagnostic.fix = "reduce the references that multiply with each other, or make instances";

@@ -68,7 +68,7 @@ class Prim {
   std::vector<Token> api_instances(Token schema) const;
   /// Composed apiSchemas list, names that no registry knows included, built-ins not.
   std::vector<Token> authored_api_schemas() const;
-  /// As stock OpenUSD reports it: built-ins of the type first, names it does not know left out.
+  /// As stock OpenUSD reports it: built-ins of the type first, without names that it does not know.
   std::vector<Token> applied_schemas() const;
   /// What the type and the applied schemas declare; never null for a valid prim.
   const schema::PrimDefinition* definition() const;

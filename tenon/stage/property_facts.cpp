@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facts are read from the opinions of the prim's index, strongest first. A finding stands at the
-// strongest opinion that says what it is about, else at the strongest on the property or the prim.
+// Facts are read from the opinions of the prim's index, strongest first. A finding is placed at the
+// strongest opinion that it is about, else at the strongest on the property or the prim.
 #include "tenon/stage/property_facts.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 // stage is opened. Paths below an instance have no records of their own: such a path is looked up
 // at the nearest instance above it and followed down from there by names through the prototype.
 // Metadata of the stage are those of the session layer and the root layer: sublayers do not count,
-// and registered fallbacks stand in for what neither of the two says.
+// and registered fallbacks are used for what neither of the two authors.
 #include "tenon/stage/stage.h"
 
 #include <algorithm>
@@ -183,7 +183,7 @@ double Stage::end_time_code() const {
                                                     : number(metadata(fields::endFrame));
 }
 
-// Core Spec 1.0.1 on stage metadata: framesPerSecond stands in for timeCodesPerSecond.
+// Core Spec 1.0.1 on stage metadata: framesPerSecond is the fallback of timeCodesPerSecond.
 double Stage::time_codes_per_second() const {
   for (const compose::Opinion& opinion : root_opinions(*data_)) {
     for (const Token field : {fields::timeCodesPerSecond, fields::framesPerSecond}) {

@@ -26,10 +26,10 @@ struct StageOptions {
   compose::ComposeOptions compose;
   /// Only these prims, their ancestors and descendants are populated; empty = all.
   std::set<Path> mask;
-  /// Populated prims, prototypes counted once; those beyond are left out with a diagnostic.
+  /// Populated prims, prototypes counted once; those beyond are skipped with a diagnostic.
   std::size_t max_prims = limits::kStagePrims;
   /// Prims with those below instances, each as often as a walk meets it, and how many more for each
-  /// spec of the layers; what is below further instances is left out with a diagnostic.
+  /// spec of the layers; descendants of further instances are skipped with a diagnostic.
   std::size_t max_instanced_prims = limits::kInstancedPrims;
   std::size_t max_instanced_prims_per_spec = limits::kInstancedPrimsPerSpec;
   /// Asset path authored in a layer -> where it is, "" when nowhere; for resolved asset values.

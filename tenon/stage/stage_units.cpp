@@ -66,10 +66,9 @@ StageUnits read_stage_units(const Stage& stage, Diagnostics& diagnostics) {
   } else if (axis == "Z") {
     units.up_axis = UpAxis::Z;
   } else if (axis != "Y") {
-    diagnostics.add(
-        diagnostic_at(stage, fields::upAxis, "units.up-axis",
-                      "upAxis is \"" + axis.str() + "\", which is none of X, Y, Z; Y is taken",
-                      "author \"Y\" or \"Z\""));
+    diagnostics.add(diagnostic_at(stage, fields::upAxis, "units.up-axis",
+                                  "upAxis is \"" + axis.str() + "\", not X, Y or Z; Y is used",
+                                  "author \"Y\" or \"Z\""));
   }
   return units;
 }

@@ -10,7 +10,7 @@
 /// Single transform operations. Internal to tenon/stage.
 namespace tenon::stage {
 
-/// `!invert!xformOp:translate:pivot` taken apart.
+/// The parts of `!invert!xformOp:translate:pivot`.
 struct XformOp {
   Token attribute;  ///< xformOp:translate:pivot
   Token kind;       ///< translate

@@ -97,7 +97,7 @@ void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
   AuthoredArc item = authored_arc(*parent.layer_stack, parent.path, arc.kind, site.path);
   indexer.report(error_class::kArcCycle,
                  item.layer == nullptr ? parent.layer_stack->root.get() : item.layer, parent.path,
-                 "the arcs form a cycle; the last one is left out: " + chain,
+                 "the arcs form a cycle; the last one is skipped: " + chain,
                  "remove one arc of the cycle", std::move(item.part));
 }
 
@@ -145,7 +145,7 @@ bool is_over_limit(Indexer& indexer, NodeId parent) {
   }
   const Node& node = indexer.graph[parent];
   indexer.report(error_class::kCapacityExceeded, node.layer_stack->root.get(), node.path,
-                 "too many arcs apply to this prim; the rest is left out",
+                 "too many arcs apply to this prim; the rest is skipped",
                  "reduce the arcs that multiply with each other");
   return true;
 }
@@ -354,7 +354,7 @@ NodeId add_arc(Indexer& indexer, const Arc& arc, const Site& site, const ArcOpti
               indexer.is_outermost() && options.include_ancestral);
   }
   if (site.path.is_absolute_root()) {
-    make_subtree_inert(indexer.graph, id);  // stands for a default prim that is not there
+    make_subtree_inert(indexer.graph, id);  // represents a missing default prim
   }
   return id;
 }

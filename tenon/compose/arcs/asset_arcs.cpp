@@ -94,7 +94,7 @@ class AssetArcAdder {
     const layer::LayerPtr layer = opened ? *opened : nullptr;
     if (is_muted_arc(item, layer.get())) {
       report(error_class::kMutedAssetPath, item,
-             "@" + item.asset_path + "@ is muted, the " + std::string(noun(kind_)) + " is left out",
+             "@" + item.asset_path + "@ is muted, the " + std::string(noun(kind_)) + " is skipped",
              "unmute the layer");
       return {};
     }

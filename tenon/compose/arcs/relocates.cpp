@@ -62,7 +62,7 @@ void report_prohibited(Indexer& indexer, const Node& prohibited) {
                  "point the arc at the target of the relocate", std::move(item.part));
 }
 
-/// A node that could contribute stands at the source of a relocate of its stack; kNoNode if none.
+/// The node that could contribute at the source of a relocate of its stack; kNoNode if none.
 NodeId find_prohibited(const NodeGraph& graph) {
   if (std::none_of(graph.nodes().begin(), graph.nodes().end(),
                    [](const Node& node) { return node.layer_stack->has_relocates(); })) {

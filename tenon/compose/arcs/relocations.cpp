@@ -204,7 +204,7 @@ void compute_origins(RelocatesBySource& relocates) {
   }
   for (auto& [source, relocate] : relocates) {
     Path origin = source;
-    // Sources never are targets and targets never lie below sources, so each step leaves the names
+    // Sources never are targets and targets are never below sources, so each step leaves the names
     // of one relocate behind; the bound only guards against a cycle.
     for (std::size_t step = 0; step <= relocates.size(); ++step) {
       Path at = origin;

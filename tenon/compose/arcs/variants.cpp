@@ -37,7 +37,7 @@ TranslatedPath translate_to_root(const NodeGraph& graph, NodeId node, Path path)
 }
 
 /// Visits a node and what is below it, strongest first, with a path carried down across the arcs;
-/// subtrees that the path has no image in are left out. `visit` returns true to stop.
+/// subtrees that the path has no image in are skipped. `visit` returns true to stop.
 template <class Visit>
 bool walk_down(const NodeGraph& graph, const TranslatedPath& from, const Visit& visit) {
   std::vector<TranslatedPath> open{from};

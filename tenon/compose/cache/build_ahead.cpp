@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Each of two threads takes roots, one after the other, and walks down from them with a cache of
-// its own. What it may not ask for, because it would open a layer or leave a trace, makes it give
-// up the index at hand, which is dropped and left to whoever asks for it.
+// its own. Where it needs what it may not ask for, because that would open a layer or leave a
+// trace, it drops the index at hand, which is then built on request.
 #include "tenon/compose/cache/build_ahead.h"
 
 #include <algorithm>

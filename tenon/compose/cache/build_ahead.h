@@ -18,7 +18,7 @@
 namespace tenon::compose {
 
 struct IndexAhead {
-  [[no_unique_address]] PrimIndex index;  // the numbers lie in what is left of it
+  [[no_unique_address]] PrimIndex index;  // the numbers use its tail padding
   bool waits = false;                     ///< it was built ahead and not asked for yet
   std::uint16_t node_count = 0;           ///< nodes that building it made
   std::uint32_t work = 0;                 ///< units that building it took
@@ -30,11 +30,11 @@ struct IndexBatch {
   StableList<IndexAhead> indices;
   MapPool maps;
   std::unordered_map<const IndexAhead*, std::vector<ArcCost>> costs;  ///< of work for arcs, if any
-  bool complete = true;                                               ///< nothing was left out
+  bool complete = true;                                               ///< nothing was skipped
   bool full = false;  ///< it ended because as much is built as may be
 };
 
-/// What is known already. Called from several threads at once.
+/// The indices known so far. Called from several threads at once.
 struct KnownIndices {
   const ComposeOptions* options = nullptr;
   const LayerStack* root_stack = nullptr;

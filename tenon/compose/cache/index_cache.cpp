@@ -4,7 +4,7 @@
 // Indices are made on demand, each after its parent's, and stay where they are so that
 // references to them hold. Two threads may build indices ahead. These count only when they are
 // asked for, in the order of asking, and once a bound of nodes or work may be reached with one, it
-// and all after it are built again. So the same arcs are left out as without building ahead. Layer
+// and all after it are built again. So the same arcs are skipped as without building ahead. Layer
 // stacks are shared by root layer and source of expression variables; each asset path is opened
 // once for each anchor layer.
 #include "tenon/compose/cache/index_cache.h"
@@ -175,7 +175,7 @@ struct IndexCache::State {
         error_class::kWorkExceeded, Severity::Error,
         {root_stack->root.get(), index.path, index.path},
         "composition takes more than " + std::to_string(work.most()) +
-            " units of work (kComposeWork); arcs from here on are left out" +
+            " units of work (kComposeWork); arcs from here on are skipped" +
             (costly.empty() ? "" : "; " + costly),
         "reduce the arcs that multiply with each other, make instances of what they bring in, or "
         "allow more with --max-work");
@@ -202,7 +202,7 @@ struct IndexCache::State {
     return found == stacks.end() ? nullptr : found->second.get();
   }
 
-  /// Keeps what was built ahead until it is asked for. True when nothing was left out.
+  /// Keeps what was built ahead until it is asked for. True when nothing was skipped.
   bool take(std::vector<IndexBatch> built) {
     bool complete = true;
     std::size_t count = indices.size();
@@ -317,7 +317,7 @@ bool IndexCache::build_below(const std::vector<const PrimIndex*>& roots,
   known.maps = &state.maps;
   known.node_count = state.node_count;
   known.work_done = state.work.done();
-  // Each of two threads gets half of what is left: work that nobody asks for is wasted.
+  // Each of two threads gets half of the rest: work without a request is wasted.
   const std::size_t left = state.work.most() - std::min(known.work_done, state.work.most());
   known.max_work = known.work_done + left / 2;
   known.max_indices = most;

@@ -37,10 +37,10 @@ struct ComposeOptions {
   bool shares_root_stack = true;
   /// Siblings that bring in the same are composed once; off, each is, with the same outcome.
   bool shares_twins = true;
-  /// Nodes of all prim indices together; arcs beyond are left out with a diagnostic.
+  /// Nodes of all prim indices together; arcs beyond are skipped with a diagnostic.
   std::size_t max_nodes = limits::kCacheNodes;
-  /// Units of work on all prim indices together, and more for each spec of the layers; what is
-  /// beyond is left out with a diagnostic that names the arc which took most.
+  /// Units of work on all prim indices together, and more for each spec of the layers; arcs beyond
+  /// are skipped with a diagnostic that names the most expensive one.
   std::size_t max_work = limits::kComposeWork;
   std::size_t max_work_per_spec = limits::kComposeWorkPerSpec;
 
@@ -69,7 +69,7 @@ class IndexCache {
   /// Builds the indices of what is below `roots` on two threads, as far as that takes no layer that
   /// is not open yet; `enters` tells, on either thread, whether children of a prim are wanted,
   /// `most` how many indices each thread may make. Later answers are the same as without, only
-  /// sooner. False when something was left out.
+  /// sooner. False when something was skipped.
   bool build_below(const std::vector<const PrimIndex*>& roots,
                    const Function<bool(const PrimIndex&)>& enters, std::size_t most);
   /// Layers that could not be opened and other errors of layer stacks, in order of discovery.

@@ -12,9 +12,10 @@
 
 namespace tenon::compose {
 
-/// A list whose one element may be like another that lies elsewhere, but for what is known without
-/// it: the nodes of most prims are like that of their parent but for the path. Then the list is all
-/// that it takes, which has the size of one pointer. Its elements are of its own otherwise.
+/// A list whose one element may equal another one elsewhere, except for parts that are known
+/// without it: the nodes of most prims equal those of their parent except for the path. Then the
+/// list is a reference to that element, which has the size of one pointer. Otherwise it owns its
+/// elements.
 template <class T>
 class LikeOrMany {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T> &&

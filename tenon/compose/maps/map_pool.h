@@ -46,9 +46,9 @@ class MapPool {
  public:
   const MapFunction* identity() const { return &MapFunction::identity(); }
   const MapFunction* add(MapFunction map);
-  /// A node that is as this one but for its path, and lives as long as the pool.
+  /// A node that equals this one except for its path, and lives as long as the pool.
   const Node* like(const Node& node);
-  /// An opinion that is as this one but for its spec and its place, and lives as long as the pool.
+  /// An opinion that equals this one except for its spec and place, and lives as long as the pool.
   const Opinion* like(const Opinion& opinion);
   /// First `inner`, then `outer`; identities cost nothing.
   const MapFunction* compose(const MapFunction* outer, const MapFunction* inner, WorkMeter& work);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A prim index is a function of the index above it, of the options and of what layer stacks say at
-// the sites that were looked at on the way. Two siblings are twins when their indices are the same
-// but for their own names and their specs say the same about arcs. What was composed of a prim
+// the sites that were looked at on the way. Two siblings are twins when their indices are equal
+// except for their own names and their specs say the same about arcs. What was composed of a prim
 // below one of them holds below the other, with the name changed, if the root stack says nothing at
 // the sites below either of them. Nothing in composition depends on what a name is, only on which
 // names are equal; so the name of a twin may be another as long as it is met nowhere else: in no

@@ -77,7 +77,7 @@ void report(const compose::PrimIndex& index, const ComposedSet& set,
   Diagnostic diagnostic;
   diagnostic.severity = Severity::Warning;
   diagnostic.rule = "clips.invalid";
-  diagnostic.message = "the clip set `" + definition.name + "` is left out: " + error.message();
+  diagnostic.message = "the clip set `" + definition.name + "` is skipped: " + error.message();
   diagnostic.prim = index.path.str();
   diagnostic.fix = error.diagnostic().fix;
   layer::place_finding(diagnostic, *set.anchor->layer, set.anchor->path, set.anchor->spec);

@@ -16,7 +16,7 @@
 /// What the `clips` and `clipSets` metadata of a prim say. Internal to tenon/stage.
 namespace tenon::stage {
 
-/// The key of a clip set that stands for the names of many clips.
+/// The key of a clip set with a template for the names of many clips.
 inline constexpr std::string_view kTemplateKey = "templateAssetPath";
 
 /// One clip set as composed, templates written out, times in those of `layer`.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A clip set in use: which clip is active when, and what the manifest declares. A set that breaks a
-// rule is left out as a whole.
+// rule is skipped as a whole.
 #include "tenon/stage/clips/clip_set.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ std::shared_ptr<const ClipSet> ClipSet::make(const ClipDefinition& definition, C
     diagnostic.severity = Severity::Warning;
     diagnostic.rule = "clips.invalid";
     diagnostic.message =
-        "the clip set `" + definition.name + "` is left out: " + checked.error().message();
+        "the clip set `" + definition.name + "` is skipped: " + checked.error().message();
     diagnostic.prim = prim;
     layer::place_finding(diagnostic, *definition.layer, definition.site);
     place_clip_finding(diagnostic, *definition.layer_stack, definition.site, definition.name,

@@ -70,7 +70,7 @@ class ClipLayer {
 struct Clip {
   const ClipLayer* layer = nullptr;
   double authored_start = 0;
-  double start = 0;  ///< as authored, but for the first: from ever on
+  double start = 0;  ///< as authored; of the first: minus infinity
   double end = 0;    ///< not included; of the last: for ever
 };
 

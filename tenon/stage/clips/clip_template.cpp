@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Clips named by a pattern: each group of '#' in `name.###.ext` becomes a time, a second group
-// behind it the decimals. Missing files are left out.
+// behind it the decimals. Missing files are skipped.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -42,8 +42,8 @@ class ClipTimes {
   std::size_t segment(double stage) const;
   double to_clip(double stage) const;
 
-  /// The stage time that a time code, read from a clip at a stage time, stands for: the line of the
-  /// segment there, continued. Where clip time stands still, the segment's start.
+  /// The stage time of a time code read from a clip at a stage time: on the line of the segment
+  /// there, continued. Where clip time does not advance, the segment's start.
   double code_to_stage(double code, double stage) const;
 
   /// The segment takes on this clip time.

@@ -77,8 +77,8 @@ bool ClipSet::contributes(const Clip& clip, Path in_clip) const {
   return samples_in(clip.layer->get(), in_clip) != nullptr;
 }
 
-// Samples of the layer in stage time. Several stage times may share one clip time; taken is the
-// nearest in either direction, jumps left out.
+// Samples of the layer in stage time. Several stage times may share one clip time; the nearest in
+// either direction is taken, except jumps.
 ClipSet::Bracket ClipSet::layer_bracket(const TimeSamples& samples, double time) const {
   const TimeSamples::Bracket found = samples.bracket(times_.to_clip(time));
   const double lower = samples.times[found.lower];

@@ -215,8 +215,8 @@ bool is_traversed(const Prim& prim) {
   return prim.is_active() && prim.is_loaded() && prim.is_defined() && !prim.is_abstract();
 }
 
-/// Calls `visit` for the prim and those below it that are traversed, parents first; what is below
-/// a prim is left out where `visit` returns false.
+/// Calls `visit` for the prim and its traversed descendants, parents first; descendants of a prim
+/// are skipped where `visit` returns false.
 template <class Visit>
 void traverse(const Prim& start, Visit visit) {
   std::vector<Prim> pending{start};

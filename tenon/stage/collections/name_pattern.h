@@ -7,7 +7,7 @@
 namespace tenon::stage {
 
 /// `name` as a whole matches `pattern`, which may hold '*', '?' and character sets such as `[a-z_]`
-/// ('!' in a set stands for itself, as in OpenUSD). Linear in the name times the pattern.
+/// ('!' in a set is a literal, as in OpenUSD). Linear in the name times the pattern.
 bool name_matches(std::string_view pattern, std::string_view name);
 
 }  // namespace tenon::stage

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Binding looks up each function once and turns it with its arguments into a closure. Operands
-// stand before their operators in the list of nodes, so one pass over it answers without recursion,
+// precede their operators in the list of nodes, so one scan of it answers without recursion,
 // however deep the expression is. A property is judged by its prim for `abstract` and `defined`.
-// All other functions are false for properties. Arguments are passed over in silence where OpenUSD
-// does so.
+// All other functions are false for properties. Arguments are silently ignored where OpenUSD does
+// so.
 #include "tenon/stage/collections/prim_predicate.h"
 
 #include <algorithm>

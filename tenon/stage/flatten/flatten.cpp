@@ -3,9 +3,9 @@
 //
 // Each prim is written once with what it composes to: metadata, defaults, samples in stage time.
 // Prims below an instance exist once in its prototype, so a prototype is written as a prim of its
-// own that its instances reference, and paths into it follow. What is left out, and the order of
-// things, follow OpenUSD's flattening. Most attributes have one opinion that means the same
-// anywhere: their specs share the authored list of fields instead of being composed field by field.
+// own that its instances reference, and paths into it follow. Omissions, and the order of things,
+// follow OpenUSD's flattening. Most attributes have one opinion that means the same anywhere: their
+// specs share the authored list of fields instead of being composed field by field.
 #include "tenon/stage/flatten/flatten.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using layer::SpecKind;
 using layer::Value;
 namespace fields = layer::fields;
 
-/// Fields that no schema knows are left out, as OpenUSD does.
+/// Fields that no schema knows are skipped, as in OpenUSD.
 void copy_field(Token name, const Value& value, Spec& spec) {
   if (!value.holds<layer::UnregisteredValue>()) {
     spec.set(name, value);
@@ -241,7 +241,7 @@ class Flattener {
                    });
   }
 
-  // False for attributes of types that nobody knows: they are left out, as OpenUSD does.
+  // False for attributes of unknown types: they are skipped, as in OpenUSD.
   bool copy_property(const Prim& prim, const PrimData& data, Path owner, Token name) {
     if (const Spec* same = spec_to_share(data, name)) {
       layer_.create(owner.property(name), SpecKind::Attribute).set_field_list(complete(*same));
@@ -256,7 +256,7 @@ class Flattener {
     return true;
   }
 
-  /// The fields of an attribute with what binary layers leave out. Specs that share their fields
+  /// The fields of an attribute with those that binary layers omit. Specs that share their fields
   /// share these, too.
   layer::FieldList complete(const Spec& spec) {
     if (spec.has(fields::custom) && spec.has(fields::variability)) {

@@ -13,7 +13,7 @@ namespace tenon::stage {
 layer::Layer flatten(const Stage& stage);
 
 /// The session layer, the root layer and their sublayers as one layer; references and other arcs
-/// stay. Fields that no schema knows are left out.
+/// stay. Fields that no schema knows are skipped.
 layer::Layer flatten_layer_stack(const Stage& stage);
 
 }  // namespace tenon::stage

@@ -5,7 +5,7 @@
 // node that came with an arc of an ancestor has gone down in namespace since, and so has its
 // parent: both paths climb by as many elements to the prims that the arc joins. A layer reaches a
 // prim through the nearest prim at or above it that has a node with that layer. The climb ends at
-// the root of a prototype, because what stands above it is not shared by its instances.
+// the root of a prototype, because its ancestors are not shared by its instances.
 #include "tenon/stage/sources/opinion_sources.h"
 
 #include <algorithm>

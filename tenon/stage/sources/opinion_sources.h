@@ -45,8 +45,8 @@ OpinionSource source_of(const compose::PrimIndex& index, const compose::Opinion&
 /// not empty, on that property of it; strongest first. Empty when there is no such prim.
 std::vector<OpinionSource> opinion_sources(const Stage& stage, Path prim, Token property = {});
 
-/// Opinions that composition passes over because they are authored below an instance, outside of
-/// what the instance shares with others; strongest first. Empty for all but instance proxies.
+/// Opinions that composition ignores because they are authored below an instance, outside of the
+/// part that the instance shares; strongest first. Empty for all but instance proxies.
 std::vector<OpinionSource> ignored_below_instance(const Stage& stage, Path prim,
                                                   Token property = {});
 

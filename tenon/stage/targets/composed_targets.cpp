@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A prim in a prototype was composed where the source of the prototype stands, and so its targets
-// point there. Each prototype or instance around the one who asks gives a pair of source path and
+// A prim in a prototype was composed at the source of the prototype, and so its targets point
+// there. Each prototype or instance around the prim of the query gives a pair of source path and
 // path as seen from there, and the pair with the deepest source that holds a target translates it.
 #include "tenon/stage/targets/composed_targets.h"
 
@@ -24,7 +24,7 @@ SourceMap source_map(const StageData& stage, const PrimData& prim, Path proxy_pa
     const Path prototype = at.is_instance() ? at.prototype().path() : at.path();
     map.emplace_back(stage.record(prototype)->source_path(), at.path());
     if (at.is_instance() && !at.is_instance_proxy() && !at.is_in_prototype()) {
-      break;  // no instance lies above it
+      break;  // there is no instance above it
     }
   }
   return map;

@@ -28,7 +28,7 @@ struct Question {
   ReadTrace* trace = nullptr;
 };
 
-/// Tells who asks what became of a source; what is on the way to another time counts less.
+/// Notes in the trace how a source was used; a use on the way to another time counts less.
 void note(const Question& question, std::size_t source, ReadTrace::Use use, bool on_the_way) {
   if (question.trace == nullptr) {
     return;

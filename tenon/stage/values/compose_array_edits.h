@@ -8,8 +8,8 @@
 
 /// Edits of arrays as values: a stronger edit is applied to what weaker opinions give. Internal to
 /// tenon/stage. As OpenUSD 26.11, with these differences: before the first sample the first value
-/// holds and blocks hold until the next sample (OpenUSD extrapolates and gives nan, or passes over
-/// the block), and arrays of assets and of path expressions are edited, too.
+/// holds and blocks hold until the next sample (OpenUSD extrapolates and gives nan, or skips the
+/// block), and arrays of assets and of path expressions are edited, too.
 namespace tenon::stage {
 
 ValueSources value_sources(const PrimData& prim, Token name, Asked asked);

@@ -173,8 +173,8 @@ double copies_back(const layer::SplineLoop& loop, double time) {
 }
 
 /// OpenUSD takes the time of a copy back into the loop. Where rounding puts a copy of its first
-/// knot before the loop or at the end of the copy before, what counts is what stands there; nothing
-/// when that is not so.
+/// knot before the loop or at the end of the copy before, the value there counts; nothing when that
+/// is not so.
 std::optional<Number> value_rounded_out(const Spline& spline, const SplineKnots& knots,
                                         std::size_t at) {
   const SplineKnot knot = knots[at];

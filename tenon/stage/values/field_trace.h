@@ -23,8 +23,8 @@ struct TracedField {
   std::optional<std::size_t> decided_by;  ///< of the losing: which row is the cause
 };
 
-/// Every opinion about every field of the prim at `prim` (instance proxies included), lists of
-/// children left out: spec by spec, strongest first. Arcs combine within each layer stack.
+/// Every opinion about every field of the prim at `prim` (instance proxies included), except lists
+/// of children: spec by spec, strongest first. Arcs combine within each layer stack.
 std::vector<TracedField> trace_fields(const Stage& stage, Path prim);
 
 /// The same for the targets of a relationship or the connections of an attribute, whichever the

@@ -17,7 +17,7 @@ enum class OpinionReason : unsigned char {
   None,
   EditsArray,        ///< Combined: an edit of the array that weaker opinions give
   MovedTowards,      ///< Combined: part of the value at the next sample, which is interpolated to
-  PutIn,             ///< Combined: what `%_` stands for in a stronger path expression
+  PutIn,             ///< Combined: the value of `%_` in a stronger path expression
   HidesWeaker,       ///< Combined: a block below edits, which lets the schema's fallback through
   BlocksAnimation,   ///< Combined: hides weaker samples and splines, not weaker defaults
   EditsList,         ///< Combined: an edit of the list that weaker opinions give

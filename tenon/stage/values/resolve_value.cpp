@@ -16,7 +16,7 @@ namespace {
 
 using layer::Value;
 
-// What stands for a manifest that was generated; asset paths start from nowhere in it.
+// Represents a generated manifest; asset paths in it have no anchor.
 const layer::Layer& no_layer() {
   static const layer::Layer layer("anon:generated_manifest.usda");
   return layer;

@@ -30,7 +30,7 @@ struct ReadTrace {
   enum class Use : unsigned char { NotRead, Edits, Gives, OtherType, MovedTowards };
   std::vector<Use> sources;  ///< of `value_sources`; empty where the strongest is read alone
   bool fallback = false;     ///< edits apply to the schema's fallback
-  /// Weaker path expressions that `%_` stands for.
+  /// Weaker path expressions, the value of `%_`.
   struct PutIn {
     compose::Opinion opinion;
     ValueSource kind = ValueSource::None;
@@ -46,8 +46,8 @@ inline Asked asked_at(Time time) { return time.is_default() ? Asked::DefaultTime
 /// (also when blocked).
 ResolvedValue resolve_value(const PrimData& prim, Token name, Asked asked);
 
-/// The value at the default time where it stands in a layer or a schema, when it means there what
-/// it means on the stage; an empty one when nothing gives a value. Null when reading it takes more.
+/// The value at the default time in place in a layer or a schema, when it means there what it means
+/// on the stage; an empty one when nothing gives a value. Null when reading it takes more.
 const layer::Value* value_in_place(const PrimData& prim, Token name);
 
 /// The value of what was resolved, in the stage's terms; empty when blocked or nowhere.

@@ -12,7 +12,7 @@ namespace tenon::stage {
 
 /// The knots of a spline in their order, copies by its inner loop included, made one by one when
 /// they are asked for: a short file can ask for very many. Knots that the copies cover are hidden
-/// by them. Refers to the spline. Custom data of knots are left out.
+/// by them. Refers to the spline. Custom data of knots are not included.
 class SplineKnots {
  public:
   /// As written: without copies.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-// What stands in place is what get() gives, for every way in which a value comes about.
+// The value in place equals that of get(), for every source of a value.
 #include <string>
 
 #include <gtest/gtest.h>

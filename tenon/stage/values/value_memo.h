@@ -28,10 +28,10 @@ class ValueMemo {
     Answer is_authored = Answer::Unknown;
   };
 
-  /// What is known of an attribute of a prototype; nullptr for others.
+  /// The entry of an attribute of a prototype; nullptr for others.
   Known* known(const Attribute& attribute);
 
-  std::vector<Known> known_;  // each in the one place that it may stand in
+  std::vector<Known> known_;  // each attribute maps to one slot
 };
 
 }  // namespace tenon::stage
