@@ -171,7 +171,7 @@ TEST_F(AssetAnswers, ARunIsAValue) {
   options.duration = 0.1;
   std::vector<std::string> told;
   options.listener.next_part = [&](const std::string& part) { told.push_back(part); };
-  // What was found in another asset says nothing of this one.
+  // A finding in another asset is not about this one.
   Diagnostic of_another;
   of_another.rule = "drive.negative-gain";
   diagnostics_.add(of_another);

@@ -11,7 +11,7 @@
 namespace tenon {
 
 /// The files of the asset that `path` opens: itself and all layers in the folder "payloads" beside
-/// it. Layers there that cannot be opened are left out; opening the asset tells of them.
+/// it. Layers there that cannot be opened are skipped; opening the asset reports them.
 Result<structure::AssetFiles> asset_files(const std::string& path, const OpenOptions& options);
 
 }  // namespace tenon

@@ -24,7 +24,7 @@ std::size_t behind(std::string_view text, std::string_view end, std::size_t at) 
   return found == std::string_view::npos ? text.size() : found + end.size();
 }
 
-/// Behind a document type, whose own declarations stand in brackets.
+/// Behind a document type, whose own declarations are in brackets.
 std::size_t behind_document_type(std::string_view text, std::size_t at) {
   const std::size_t open = text.find_first_of("[>", at);
   const bool has_declarations = open != std::string_view::npos && text[open] == '[';

@@ -34,9 +34,9 @@ struct ConvertedFile {
 
 /// A robot's description as a layer (convert/convert_robot.h): URDF or MJCF, told by its root.
 /// Asset paths of the layer are absolute. What the description names is read from the folders that
-/// belong to it (docs/reading.md); other files are left out, with an error. Errors: those of
-/// reading and converting; Missing for MJCF without MuJoCo; Unsupported "file.not-on-disk" for
-/// MJCF, Collada and glTF that the worker would not find on the disk.
+/// belong to it (docs/reading.md); other files are skipped, with an error. Errors: those of reading
+/// and converting; Missing for MJCF without MuJoCo; Unsupported "file.not-on-disk" for MJCF,
+/// Collada and glTF that the worker would not find on the disk.
 Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
                                    Diagnostics& diagnostics);
 

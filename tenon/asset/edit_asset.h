@@ -45,7 +45,7 @@ struct AssetEdit {
 
   Kind kind = Kind::SetProperty;
   Path object;        ///< a property; for API schemas, prims and variants a prim
-  std::string value;  ///< of an attribute as text layers print it, quotes and @ may be left out,
+  std::string value;  ///< of an attribute as text layers print it, quotes and @ optional,
                       ///< "None" blocks; of a relationship: paths, all that it has then, or those
                       ///< to add or remove
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
@@ -112,7 +112,7 @@ struct EditedAsset {
 /// In an asset of the structure 3.0 (tenon/structure/layout.h) an edit goes to the file that owns
 /// the property or API schema; what instances share to the file of the instances; with
 /// `options.engine` to that engine's file. Elsewhere to the strongest layer with an opinion, else
-/// to the root layer. What is authored there is what edit::StageEditor authors.
+/// to the root layer. It authors the same opinions as edit::StageEditor.
 class AssetEditor {
  public:
   /// Errors: those of open_stage, and Unsupported for assets in packages.
@@ -122,8 +122,8 @@ class AssetEditor {
   AssetEditor& operator=(AssetEditor&&) noexcept;
   ~AssetEditor();
 
-  /// All edits as one step of the history, or none of them. Each is proved: the scene is composed
-  /// again, and where the value is not what was asked for, nothing comes of it. Errors:
+  /// All edits as one step of the history, or none of them. Each is verified: the scene is composed
+  /// again, and where the value is not the requested one, nothing is changed. Errors:
   /// ErrorCode::NotFound (prim, property, file), Invalid (types, values, an opinion elsewhere is
   /// stronger), Unsupported (files in packages). Diagnostics: "edit.hidden-in-variant",
   /// "edit.has-samples".

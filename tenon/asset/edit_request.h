@@ -10,7 +10,7 @@
 
 namespace tenon {
 
-/// What is asked for of an asset, as people write it (`tenon set`).
+/// A request to edit an asset, as people write it (`tenon set`).
 struct EditRequest {
   std::vector<std::string> assignments;  ///< PATH.property=VALUE; of relationships += and -=, too
   std::vector<std::string> clear;        ///< PATH.property

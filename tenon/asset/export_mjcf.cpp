@@ -41,14 +41,14 @@ class ImageCopier {
     const auto bytes = policy_.open(file);
     if (!bytes && bytes.error().diagnostic().rule == bytes::kOutsideRule) {
       const Diagnostic& why = bytes.error().diagnostic();
-      diagnostics_.add(file_finding(Severity::Error, why.rule, why.message + "; it is left out",
+      diagnostics_.add(file_finding(Severity::Error, why.rule, why.message + "; it is skipped",
                                     file, 0, why.fix));
       return {};
     }
     if (!bytes || !bytes::is_png((*bytes)->text())) {
       diagnostics_.add(file_finding(Severity::Warning, "mjcf.left-out",
                                     "the image is not a PNG, which is all that MuJoCo reads; it is "
-                                    "left out",
+                                    "skipped",
                                     file, 0, "save the image as PNG"));
       return {};
     }

@@ -18,10 +18,10 @@ struct ExportedMjcf {
   std::map<std::string, std::string> images;  ///< name as the text has it -> bytes
 };
 
-/// A physics scene, read from `stage`, in MuJoCo's own format, with what is seen of it
-/// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text, as
-/// far as `policy` allows. What MJCF
-/// has no word for goes to `diagnostics`. ErrorCode::Missing in a build without MuJoCo.
+/// A physics scene, read from `stage`, in MuJoCo's own format, with its visuals
+/// (mjcf/write_model.h): images are copied into `folder`, a name relative to the text, as far as
+/// `policy` allows. What MJCF does not support goes to `diagnostics`. ErrorCode::Missing in a build
+/// without MuJoCo.
 Result<ExportedMjcf> export_mjcf(const stage::Stage& stage, const scene::PhysicsScene& scene,
                                  const std::string& folder, const bytes::ReadPolicy& policy,
                                  Diagnostics& diagnostics);

@@ -19,7 +19,7 @@ struct ExportedUrdf {
 };
 
 /// A stage's robot as URDF (describe/describe_robot.h tells how): meshes are OBJ files in `folder`,
-/// a name relative to the description, each content once. What URDF has no word for goes to
+/// a name relative to the description, each content once. What URDF does not support goes to
 /// `diagnostics`.
 Result<ExportedUrdf> export_urdf(const stage::Stage& stage, const std::string& folder,
                                  Diagnostics& diagnostics);

@@ -9,8 +9,8 @@
 
 namespace tenon {
 
-/// The finding says that something that the input names was not there, could not be read, or was
-/// left out at a limit, so that the answer is about less than was asked for.
+/// The finding says that something that the input names was missing, could not be read, or was
+/// skipped at a limit, so that the answer is about less than was requested.
 bool tells_of_missing_input(const Diagnostic& finding);
 
 /// For verbs that work on layers without composing them: adds what composing finds missing.

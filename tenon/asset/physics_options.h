@@ -13,7 +13,7 @@ namespace tenon {
 /// `options` for a stage whose physics is read with these readings (S-11).
 OpenOptions with_readings(OpenOptions options, const physics::Readings& readings);
 
-/// The readings, and what takes meshes apart and simplifies them (S-62), with the user's cache.
+/// The readings, and the decomposition and simplification of meshes (S-62), with the user's cache.
 physics::ReadOptions read_options(const physics::Readings& readings = {});
 
 }  // namespace tenon

@@ -52,9 +52,9 @@ void report_loose(const std::string& file, bool taken, Diagnostics& diagnostics)
   finding.rule = "structure.loose-layer";
   finding.message =
       std::string("no variant of \"Physics\" loads this layer") +
-      (taken ? ", which stands on the physics of all engines; it becomes the variant \"" + variant +
+      (taken ? ", which builds on the physics of all engines; it becomes the variant \"" + variant +
                    "\""
-             : "; it is left out");
+             : "; it is skipped");
   finding.file = file;
   finding.fix = taken ? "remove the file where it is not wanted"
                       : "give it the sublayer ./physics.usda, or load it by a variant";

@@ -17,10 +17,10 @@ namespace tenon {
 structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy& policy);
 
 /// The asset in Asset Structure 3.0, in no folder yet (structure/make/make_package.h tells what is
-/// done; engines' layers that stand beside physics.usda and that no variant loads are taken along
-/// as variants; structure::write_package puts it into a folder). Of the options files, sandbox,
-/// search paths and what may be read count; writing is to the disk; layers from elsewhere are named
-/// in `diagnostics`.
+/// done; engines' layers beside physics.usda that no variant loads are taken along as variants;
+/// structure::write_package puts it into a folder). Of the options files, sandbox, search paths and
+/// what may be read count; writing is to the disk; layers from elsewhere are named in
+/// `diagnostics`.
 Result<structure::StructuredAsset> structure_asset(const std::string& path, const OpenOptions& open,
                                                    const structure::StructureOptions& options,
                                                    Diagnostics& diagnostics);

@@ -4,7 +4,7 @@
 // One argument becomes several plain edits: first the API schema, then its properties, whose types
 // are known by it. Numbers are brought to what the schema means: kilograms to the unit of mass of
 // the stage, and for PhysX, whose mimic joints state an equation that sums to zero, the negative
-// ratio and offset. What is worked out is rounded to float before it is written.
+// ratio and offset. Computed numbers are rounded to float before they are written.
 #include "tenon/asset/typed_edits.h"
 
 #include <algorithm>

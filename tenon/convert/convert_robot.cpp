@@ -28,8 +28,8 @@ struct LayerAndImages {
   InnerImages images;
 };
 
-/// The passes over a robot. The order of what they write is that of the layer: links with their
-/// shapes down the tree, then joints, then what stands beside the tree.
+/// The passes of a conversion. Their output is in the order of the layer: links with their shapes
+/// down the tree, then joints, then everything beside the tree.
 Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostics) {
   const robot::RobotModel& model = source.model;
   RobotLayer layer(model, diagnostics);

@@ -65,10 +65,9 @@ using InnerImages = std::map<std::string, std::string>;
 /// A link without inertial is no body: at the root it stands still, on a fixed joint it is a frame
 /// (IsaacSiteAPI) of the link that holds it, else it gets a millionth of a neighbour's mass where
 /// it has no colliders. Mesh files are read; texture paths are those of the model; those inside of
-/// mesh files are in `images` and are no files yet. Files from outside of `reading` are left out,
-/// so are textures that are no images: errors of `diagnostics` say so. Faults that leave something
-/// out go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be nested
-/// (Limit).
+/// mesh files are in `images` and are no files yet. Files from outside of `reading` are skipped, so
+/// are textures that are no images: errors of `diagnostics` say so. Faults that drop something out
+/// go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be nested (Limit).
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
                                    Diagnostics& diagnostics, InnerImages* images = nullptr);
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Joints of robots turn or slide about any axis; those of UsdPhysics about X, Y or Z of a frame
-// that stands in both bodies. So the frame is turned until one of them is the axis, by exact
-// quaternions where that can be. Mimics and actuators are written when all joints have their prims,
-// for they refer to them.
+// in both bodies. So the frame is rotated until one of them is the axis, by exact quaternions where
+// that can be. Mimics and actuators are written when all joints have their prims, for they refer to
+// them.
 #include "tenon/convert/joints.h"
 
 #include <algorithm>

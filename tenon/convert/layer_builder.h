@@ -14,7 +14,7 @@ namespace tenon::convert {
 
 /// The same without -0.
 Quatd with_plain_zeros(const Quatd& rotation);
-/// A unit quaternion without the rounding errors that stand in the place of zeros, -0 too.
+/// A unit quaternion without the rounding errors of zeros, -0 too.
 Quatd without_noise(const Quatd& rotation);
 /// The same of a place: nothing that anybody could measure is lost.
 Vec3d without_noise(Vec3d metres);
@@ -31,8 +31,8 @@ class LayerBuilder {
   void apply(Path prim, Token api);
 
   // Properties that `schema` (a type or an API, with its instance) declares; a name that it does
-  // not declare is a mistake in this program (assert). Instance names stand in place of the
-  // pattern: "drive:angular:physics:stiffness".
+  // not declare is a mistake in this program (assert). Instance names replace the pattern:
+  // "drive:angular:physics:stiffness".
   /// A number as a float, a double or an int, as declared.
   void set_number(Path prim, Token schema, std::string_view property, double value);
   /// The same of arrays, vectors, colours and flags; no value without numbers.

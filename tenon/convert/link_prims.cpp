@@ -11,7 +11,7 @@ using robot::JointKind;
 
 namespace {
 
-/// What a text layer may nest, less what stands above and below links.
+/// The nesting that a text layer allows, less the levels above and below links.
 constexpr std::size_t kNestedLinks = limits::kTextNestingDepth - 20;
 
 /// Of a robot that is to float: the first link with mass that fixed joints hold to a root without.
@@ -71,7 +71,7 @@ void find_shares(const Source& source, LinkPrims& links) {
   }
 }
 
-/// A link but for its path; `links` has those above it.
+/// A link without its path; `links` has those above it.
 LinkPrim placed_link(const Source& source, Index link, const LinkPrims& links) {
   LinkPrim prim;
   prim.role = role_of(source, link, links.carried.has_value());

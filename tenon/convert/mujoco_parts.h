@@ -18,8 +18,8 @@ struct MujocoPrims {
   std::map<std::string, Path> actuators;  ///< those that are no drives
 };
 
-/// Writes tendons, actuators that are no drives, and keyframes. Actuators of what has no prim are
-/// left out.
+/// Writes tendons, actuators that are not drives, and keyframes. Actuators of objects without a
+/// prim are skipped.
 MujocoPrims write_mujoco_parts(const robot::MujocoParts& parts, const JointPrims& joints,
                                const ShapePrims& shapes, PhysicsScope& physics);
 

@@ -35,7 +35,7 @@ class MujocoSensorWriter {
                                              : sensor.instrument;
       physics_.layer().report({}, Severity::Warning, "convert.sensor",
                               "the sensor \"" + sensor.name + "\" (" + sensor.kind +
-                                  ") is left out: \"" + lost.name + "\" is not converted as such",
+                                  ") is skipped: \"" + lost.name + "\" is not converted as such",
                               "");
       return;
     }
@@ -112,7 +112,7 @@ class MujocoSensorWriter {
     return std::nullopt;
   }
 
-  /// What is seen, else what touches in its place.
+  /// The visual, else the collider in its place.
   std::optional<Path> shape_prim(const std::string& name) const {
     for (const std::string& at : {name, name + "_collider"}) {
       if (const auto found = prims_.shapes.shapes.find(at); found != prims_.shapes.shapes.end()) {

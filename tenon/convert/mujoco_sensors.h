@@ -22,8 +22,8 @@ struct MeasuredPrims {
 };
 
 /// Writes MuJoCo's sensors as prims of the type TenonMujocoSensor, which models that are written of
-/// the asset take up (scene/mujoco_actuators.h). One whose object is not converted is left out with
-/// a finding "convert.sensor", and so is one whose instrument is.
+/// the asset take up (scene/mujoco_actuators.h). One whose object or instrument is not converted is
+/// skipped with a finding "convert.sensor".
 void write_mujoco_sensors(const Source& source, const MeasuredPrims& prims, PhysicsScope& physics);
 
 }  // namespace tenon::convert

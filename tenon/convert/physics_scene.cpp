@@ -3,7 +3,7 @@
 //
 // The world that a model brings along. A robot is put into scenes that have gravity and a solver of
 // their own, and a second PhysicsScene would be one more world: so none is written unless asked
-// for, and what that leaves out is said.
+// for, and the loss is reported.
 #include "tenon/convert/physics_scene.h"
 
 #include <cmath>
@@ -49,7 +49,7 @@ void write_scene(const Source& source, PhysicsScope& physics) {
     if (!is_usual(scene)) {
       physics.layer().report(
           {}, Severity::Warning, "convert.scene",
-          "the model's world is left out, for robots get that of the scene they are put into: " +
+          "the model's world is skipped, since robots get that of the scene they are put into: " +
               words_of(scene),
           "--scene keeps it as a PhysicsScene");
     }

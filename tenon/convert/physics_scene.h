@@ -7,7 +7,7 @@
 /// Internal to this folder.
 namespace tenon::convert {
 
-/// Writes the world that a model brings along, or reports that it is left out.
+/// Writes the world that a model brings along, or reports that it is skipped.
 void write_scene(const Source& source, PhysicsScope& physics);
 
 }  // namespace tenon::convert

@@ -86,7 +86,7 @@ void drop_merged_sensors(robot::RobotModel& model, Diagnostics& diagnostics) {
       if (std::erase_if(site.sensors, is_force_torque) > 0) {
         diagnostics.add(robot::model_finding(
             model, link.place, Severity::Warning, "convert.sensor",
-            "the force-torque sensor at \"" + site.name + "\" is left out: its link is merged",
+            "the force-torque sensor at \"" + site.name + "\" is skipped: its link is merged",
             "convert without merging links that are fixed"));
       }
     }
@@ -108,7 +108,7 @@ InstrumentPrims write_sensors(const Source& source, const LinkPrims& links,
         if (is_force_torque(sensor) && links[i].role == LinkRole::Frame) {
           layer.report(source.model.links[i].place, Severity::Warning, "convert.sensor",
                        "the force-torque sensor at \"" + site.name +
-                           "\" is left out: its link has no mass and is a part of another",
+                           "\" is skipped: its link has no mass and is a part of another",
                        "give the link a mass");
           continue;
         }

@@ -3,8 +3,8 @@
 //
 // A tendon's length is a sum of joint coordinates, or that of a path which goes through sites,
 // around shapes and past sites on their side; pulleys divide it into branches. A relationship names
-// each prim once, however often a path meets it, so lists of numbers say which target stands where,
-// on which branch, and past which site (MuJoCo's schema for USD, MjcTendon).
+// each prim once, however often a path meets it, so lists of numbers say which target is where, on
+// which branch, and past which site (MuJoCo's schema for USD, MjcTendon).
 #include "tenon/convert/tendon_writer.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::int32_t number_in(std::vector<Path>& list, Path prim) {
   return number;
 }
 
-/// Each prim once; `numbers` says which one stands where.
+/// Each prim once; `numbers` gives their order.
 std::vector<Path> numbered(const std::vector<Path>& path, std::vector<std::int32_t>& numbers) {
   std::vector<Path> targets;
   for (const Path& prim : path) {

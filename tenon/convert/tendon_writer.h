@@ -20,8 +20,8 @@ class TendonWriter {
   TendonWriter(const std::vector<Path>& joints, const ShapePrims& shapes, PhysicsScope& physics)
       : joints_(joints), shapes_(shapes), physics_(physics) {}
 
-  /// Writes a tendon and returns its prim. A path to what is not on the stage is left out, which is
-  /// reported.
+  /// Writes a tendon and returns its prim. A path to something that is not on the stage is skipped
+  /// and reported.
   Path write(const robot::MujocoTendon& tendon);
 
  private:

@@ -149,7 +149,7 @@ class ActuatorReader {
  private:
   void left_out(int number, const std::string& why) {
     source_.left_out("the actuator \"" + source_.name(mjOBJ_ACTUATOR, number, "actuator") +
-                         "\" is " + why + "; it is left out",
+                         "\" is " + why + "; it is skipped",
                      source_.line_of(mjOBJ_ACTUATOR, number));
   }
 

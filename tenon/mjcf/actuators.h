@@ -31,7 +31,7 @@ struct Actuators {
   std::vector<int> motor_numbers;                 ///< (motor_count), MuJoCo's
 };
 
-/// Actuators that are neither are listed as left out, as is the second drive of a joint.
+/// Actuators that are neither are listed as skipped, as is the second drive of a joint.
 Actuators read_actuators(MjcfSource& source, const BodyTree& tree, const Tendons& tendons);
 
 /// Gives joints their drives.

@@ -66,7 +66,7 @@ void report_pairs(MjcfSource& source) {
     return;
   }
   source.left_out("friction and softness that " + std::to_string(model.npair) +
-                  " contact pairs have of their own are left out; their geoms touch" +
+                  " contact pairs have of their own are skipped; their geoms collide" +
                   lines_text(source.lines_of(mjOBJ_PAIR)));
   for (int pair = 0; pair < model.npair; ++pair) {
     const int a = model.pair_geom1[pair];
@@ -116,7 +116,7 @@ ContactClasses find_contact_classes(MjcfSource& source) {
   const std::vector<const ClassKey*> limited = limited_keys(geoms, pairs);
   if (limited.size() > kMaxClasses) {
     source.left_out("contype, conaffinity and pairs tell " + std::to_string(limited.size()) +
-                    " classes of geoms apart; they are left out: all touch");
+                    " classes of geoms apart; they are skipped: all collide");
     return found;
   }
   for (std::size_t i = 0; i < limited.size(); ++i) {

@@ -18,7 +18,7 @@ struct ContactClasses {
   std::vector<bool> collides;                        ///< (ngeom), ever touches anything
 };
 
-/// Lists what contact pairs say beside that their geoms touch, and too many classes, as left out.
+/// Lists other settings of contact pairs, and too many classes, as skipped.
 ContactClasses find_contact_classes(MjcfSource& source);
 
 }  // namespace tenon::mjcf

@@ -73,7 +73,7 @@ void read_equality(MjcfSource& source, const BodyTree& tree, int equality, Equal
   const auto at = static_cast<std::size_t>(equality);
   const std::string name = source.name(mjOBJ_EQUALITY, equality, "equality");
   if (model.eq_active0[at] == 0) {
-    source.left_out("the equality \"" + name + "\" is off; it is left out",
+    source.left_out("the equality \"" + name + "\" is off; it is skipped",
                     source.line_of(mjOBJ_EQUALITY, equality));
     return;
   }
@@ -84,7 +84,7 @@ void read_equality(MjcfSource& source, const BodyTree& tree, int equality, Equal
   if (model.eq_type[at] != mjEQ_JOINT || model.eq_obj2id[at] < 0) {
     source.report(Severity::Error, "mjcf.left-out",
                   "the equality \"" + name +
-                      "\" is neither a law of two joints nor holds two bodies; it is left out",
+                      "\" is neither a law of two joints nor holds two bodies; it is skipped",
                   source.line_of(mjOBJ_EQUALITY, equality));
     return;
   }

@@ -17,7 +17,7 @@ struct Equalities {
   std::vector<std::optional<robot::Mimic>> mimics;  ///< (joint_count), by BodyTree::joints
 };
 
-/// Equalities of other kinds, and those that are off, are listed as left out.
+/// Equalities of other kinds, and those that are off, are listed as skipped.
 Equalities read_equalities(MjcfSource& source, const BodyTree& tree);
 
 /// Lets joints follow others.

@@ -11,9 +11,9 @@ using robot::Index;
 
 namespace {
 
-// MuJoCo lets nothing touch what carries it, each taken with all that is welded to it, but for the
-// world. Joints of USD say so of their own two bodies alone: not across the links between several
-// joints, nor across welds.
+// MuJoCo lets no body touch the one that carries it, each taken with all bodies welded to it,
+// except for the world. Joints of USD do so for their own two bodies only: not across the links
+// between several joints, nor across welds.
 std::vector<std::array<Index, 2>> read_pairs_of_parents(const mjModel& model,
                                                         const BodyTree& tree) {
   std::vector<std::array<Index, 2>> pairs;

@@ -70,16 +70,16 @@ robot::Joint read_joint(MjcfSource& source, int number) {
   joint.stiffness = model.jnt_stiffness[at];
   joint.mujoco = softness_of(model, number);
   if (model.jnt_margin[at] != 0) {
-    source.left_out("the margin of the limit of joint \"" + joint.name + "\" is left out");
+    source.left_out("the margin of the limit of joint \"" + joint.name + "\" is skipped");
   }
   if (model.jnt_actgravcomp[at] != 0) {
     source.left_out("the compensation of gravity by actuators of joint \"" + joint.name +
-                    "\" is left out");
+                    "\" is skipped");
   }
   if (joint.kind == JointKind::Ball) {
     if (limited) {
       source.left_out("the limit of the ball \"" + joint.name +
-                      "\" is left out: it bounds the whole turn");
+                      "\" is skipped: it bounds the total rotation");
     }
     return joint;
   }

@@ -8,8 +8,8 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// A joint by MuJoCo's number, but for its place in the tree. Its coordinate counts from `ref`,
-/// where the bodies stand as written.
+/// A joint by MuJoCo's number, without its place in the tree. Its coordinate counts from `ref`, the
+/// pose in which the bodies are written.
 robot::Joint read_joint(MjcfSource& source, int number);
 
 }  // namespace tenon::mjcf

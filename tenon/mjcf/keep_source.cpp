@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is read for USD is compiled whole. A model that asks MuJoCo to fuse bodies or to drop what
-// is only seen is compiled once more as it asks, for its text to be that of the model that MuJoCo
-// makes of the file. Folders of files are left out of the text, as the files come along. MuJoCo
-// writes of a size what the shape has use for, and reads another size then; sizes are whole here.
+// The model that is read for USD is compiled whole. A model that asks MuJoCo to fuse bodies or to
+// drop visuals is compiled once more as it asks, for its text to be that of the model that MuJoCo
+// makes of the file. Folders of files are removed from the text, as the files come along. MuJoCo
+// writes only the sizes that a shape uses, and reads another size then; sizes are whole here.
 #include "tenon/mjcf/keep_source.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class SourceFiles {
         meshes_(mjs_getString(spec.compiler.meshdir)),
         textures_(mjs_getString(spec.compiler.texturedir)) {}
 
-  /// What stands for a file in the text.
+  /// The placeholder of a file in the text.
   std::string mark_of(std::string_view tag, std::string_view file) {
     const fs::path name(file);
     std::error_code error;

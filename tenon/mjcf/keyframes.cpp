@@ -78,7 +78,7 @@ std::vector<robot::MujocoKeyframe> read_keyframes(MjcfSource& source, const Actu
     frame.activations = activations_of(model, actuators, key);
     frame.controls = controls_of(model, actuators, joints, key);
     if (model.key_time[key] != 0) {
-      source.left_out("the time of keyframe \"" + frame.name + "\" is left out");
+      source.left_out("the time of keyframe \"" + frame.name + "\" is skipped");
     }
   }
   return frames;

@@ -13,7 +13,7 @@ void report_left_out(MjcfSource& source) {
       {model.nflex, "deformables"}, {model.nskin, "skins"}, {model.nplugin, "plugins"}};
   for (const auto& [count, what] : rows) {
     if (count > 0) {
-      source.left_out(std::to_string(count) + " " + what + " are left out");
+      source.left_out(std::to_string(count) + " " + what + " are skipped");
     }
   }
 }

@@ -7,7 +7,7 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Lists what a RobotModel has no word for, by kind and number, with its lines.
+/// Lists what a RobotModel does not support, by kind and number, with its lines.
 void report_left_out(MjcfSource& source);
 
 }  // namespace tenon::mjcf

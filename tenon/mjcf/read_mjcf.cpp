@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// MuJoCo itself parses and compiles the model, so that a description means what it means there;
-// what is read are the tables of the compiled model, by one pass for each kind of thing. Nothing is
-// fused or thrown away by the compiler, and the text itself is kept, for the way back.
+// MuJoCo itself parses and compiles the model, so that a description means what it means there; the
+// tables of the compiled model are then read, each kind of object in turn. Nothing is fused or
+// dropped by the compiler, and the text itself is kept, for the way back.
 #include "tenon/mjcf/read_mjcf.h"
 
 #include <cstdlib>
@@ -120,7 +120,7 @@ void attach_shapes(std::vector<BodyShapes> shapes, BodyTree& tree) {
   }
 }
 
-/// From a compiled model to a robot: passes over its tables, each with its part of the robot and
+/// From a compiled model to a robot: each function reads one table, with its part of the robot and
 /// its findings.
 robot::RobotModel read_model(MjcfSource& source) {
   robot::RobotModel robot;

@@ -12,7 +12,7 @@ namespace tenon::mjcf {
 
 /// Reads a model in MuJoCo's own format by MuJoCo's own parser and compiler: includes, default
 /// classes, angles, orientations of every kind and inertias from geoms are resolved by it. The
-/// model's root is a link without mass that stands for the world.
+/// model's root is a link without mass that represents the world.
 ///
 /// Coordinates count from where the model stands (MuJoCo's `ref` becomes 0). A body with several
 /// joints becomes a chain of links, those between with a millionth of its mass. Materials have

@@ -160,7 +160,7 @@ Tendons read_tendons(MjcfSource& source, const BodyTree& tree) {
       found.tendons.push_back(std::move(*tendon));
     } else {
       source.left_out("the tendon \"" + source.name(mjOBJ_TENDON, i, "tendon") +
-                          "\" starts with a pulley; it is left out",
+                          "\" starts with a pulley; it is skipped",
                       source.line_of(mjOBJ_TENDON, i));
     }
   }

@@ -14,7 +14,7 @@ namespace tenon::mjcf {
 
 struct Tendons {
   std::vector<robot::MujocoTendon> tendons;
-  std::vector<std::optional<robot::Index>> of_number;  ///< (ntendon), into tendons; none: left out
+  std::vector<std::optional<robot::Index>> of_number;  ///< (ntendon), into tendons; none: skipped
 };
 
 /// Lengths count from where the model stands. Tendons that the schema cannot say are listed as left

@@ -3,7 +3,7 @@
 //
 // All actuators are added and compiled at once, which is enough when MuJoCo takes them. It names
 // only its first fault, so after a refusal they are taken out and put back one by one, with a
-// compile for each. Those that fail are left out, with MuJoCo's words, and the others stay. A site
+// compile for each. Those that fail are skipped, with MuJoCo's message, and the others stay. A site
 // that an actuator needs is named after its prim and made once, placed in MuJoCo's frame of its
 // body. An actuator that runs take as the drive of a joint is written all the same, with its own
 // gains, ranges and name; the model is made without that drive.
@@ -166,7 +166,7 @@ Result<std::vector<mjsActuator*>> write_actuators(const scene::PhysicsScene& sce
     const std::string why = writer.add(actuators[i], made[i]);
     if (!why.empty()) {
       report_left_out(diagnostics, actuators[i].path, "mjc:target",
-                      why + "; the actuator is left out");
+                      why + "; the actuator is skipped");
       continue;
     }
     added.push_back(i);

@@ -24,7 +24,7 @@ using scene::Index;
 using scene::MujocoActuator;
 using scene::MujocoKeyframe;
 
-/// A joint of the model, and where its numbers stand there.
+/// A joint of the model, and where its numbers are there.
 struct Slot {
   enum class Kind : std::uint8_t { Free, Ball, Turn, Slide };
   Kind kind = Kind::Turn;
@@ -90,7 +90,7 @@ class KeyframeWriter {
   void add(const MujocoKeyframe& frame) {
     if (reversed_ball_) {
       report_left_out(diagnostics_, frame.path, "mjc:qpos",
-                      "a ball is reversed in the model; the keyframe is left out");
+                      "a ball is reversed in the model; the keyframe is skipped");
       return;
     }
     if (!frame.positions.empty() && !fits(frame, "mjc:qpos", frame.positions, positions_)) {
@@ -119,7 +119,7 @@ class KeyframeWriter {
     }
     if (!frame.mocap_positions.empty() || !frame.mocap_rotations.empty()) {
       report_left_out(diagnostics_, frame.path, "mjc:mpos",
-                      "the model has no bodies of the asset that mocap moves; left out");
+                      "the model has no bodies of the asset that mocap moves; skipped");
     }
   }
 
@@ -158,7 +158,7 @@ class KeyframeWriter {
     if (!numbers.empty() && numbers.size() != wanted) {
       report_left_out(diagnostics_, frame.path, name,
                       "it has " + std::to_string(numbers.size()) + " numbers, the asset " +
-                          std::to_string(wanted) + " to set; it is left out" +
+                          std::to_string(wanted) + " to set; it is skipped" +
                           (std::string_view(name) == "mjc:qpos" ? " with the keyframe" : ""));
     }
     return !numbers.empty() && numbers.size() == wanted;

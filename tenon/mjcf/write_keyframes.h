@@ -18,7 +18,7 @@ namespace tenon::mjcf {
 /// moves bodies, down the tree and, side by side, in the order of the stage: that of MuJoCo where
 /// the asset was made from a model of it. Bodies that move freely have the pose of their prim [m in
 /// the world; real part first], joints count from where their frames meet [m or rad]. Lists of
-/// another length are left out and listed. Errors: those of MuJoCo.
+/// another length are skipped and listed. Errors: those of MuJoCo.
 Result<void> write_keyframes(const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
                              const std::vector<mjsActuator*>& made,
                              const engines::mujoco::Model& model, mjSpec& spec,

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The physics is made into a model first, with actuators and keyframes. What is seen comes last, as
-// geoms that touch nothing and weigh nothing. When MuJoCo refuses the whole, it is written again
-// without them, so that a bad picture or mesh never costs the physics. Images go to the compiler
-// from memory under the names that the text has. Meshes that are alike become one.
+// The physics is made into a model first, with actuators and keyframes. Visuals come last, as geoms
+// that touch nothing and weigh nothing. When MuJoCo refuses the whole, it is written again without
+// them, so that a bad picture or mesh never costs the physics. Images go to the compiler from
+// memory under the names that the text has. Meshes that are alike become one.
 //
-// The exporter has no builder of its own: what a scene means for MuJoCo stands in one place, the
-// passes of engines/mujoco, which know that text is wanted (Purpose::Text) where a run needs
-// something that no other reader has. An actuator of the asset that runs take as a drive of its
-// joint is written as it is, in the drive's place. MuJoCo's writer makes the text, and what it does
-// not do (names, digits) is done to the text (text/write_text.h): so a new element of MuJoCo
-// comes out with its first line in a pass.
+// The exporter has no builder of its own: what a scene means for MuJoCo is in one place, the passes
+// of engines/mujoco, which know that text is wanted (Purpose::Text) where a run needs something
+// that no other reader has. An actuator of the asset that runs take as a drive of its joint is
+// written as it is, in the drive's place. MuJoCo's writer makes the text, and what it does not do
+// (names, digits) is done to the text (text/write_text.h): so a new element of MuJoCo comes out
+// with its first line in a pass.
 #include "tenon/mjcf/write_model.h"
 
 #include <algorithm>
@@ -148,7 +148,7 @@ class VisualWriter {
     const double usual = scale < 0 ? -scale : 1 - scale;
     const auto off = [](double a) { return std::fabs(a - std::round(a)) > 1e-5; };
     if (off(material.texture_offset[1] - usual) || off(material.texture_offset[0])) {
-      report("the images of material \"" + material.name + "\" are moved, which is left out");
+      report("the images of material \"" + material.name + "\" are moved; the offset is skipped");
     }
   }
 
@@ -234,7 +234,8 @@ class VisualWriter {
     return name;
   }
 
-  /// MuJoCo's text has one place in images for each point, so points stand for each of theirs.
+  /// MuJoCo's text has one place in images for each point, so points are repeated for each of
+  /// theirs.
   static void set_faces(const robot::MeshFile& mesh, mjsMesh& result) {
     std::vector<float> points;
     std::vector<float> places;
@@ -268,7 +269,7 @@ class VisualWriter {
     const bool moves = geometry.kind == GeometryKind::Plane && !is_world;
     if (body == nullptr || small || moves) {
       report("the shape \"" + visual.name +
-             "\" has too few points or is a plane that moves; it is left out");
+             "\" has too few points or is a plane that moves; it is skipped");
       return;
     }
     mjsGeom* geom = mjs_addGeom(body, nullptr);
@@ -289,7 +290,7 @@ class VisualWriter {
     }
   }
 
-  /// A collider of the same shape in the same place is what is seen itself, as models have it.
+  /// A collider of the same shape in the same place becomes the visual itself, as in models.
   void show_collider(mjsBody* body, const robot::Visual& visual, mjsGeom* seen) {
     for (mjsElement* at = mjs_firstChild(body, mjOBJ_GEOM, 0); at != nullptr;
          at = mjs_nextChild(body, at, 0)) {
@@ -333,7 +334,7 @@ class VisualWriter {
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
 
-/// One that MuJoCo has no word or no size for is left as it is.
+/// One whose kind or size MuJoCo does not support is left as it is.
 void set_site_volume(mjsSite& site, const robot::MujocoVolume& volume) {
   const std::optional<mjtGeom> shape = engines::mujoco::site_shape(volume.type);
   if (shape && volume.size[0] > 0) {
@@ -361,8 +362,8 @@ void add_sites(const robot::RobotModel& visuals, const scene::PhysicsScene& scen
   }
 }
 
-/// The scene without what is written by itself, in the order of the stage: actuators, and the
-/// drives that stand for them.
+/// The scene without the parts that are written separately, in the order of the stage: actuators,
+/// and their drives.
 scene::PhysicsScene without_actuators(const scene::PhysicsScene& scene,
                                       const scene::MujocoParts& parts) {
   scene::PhysicsScene result = scene;
@@ -448,7 +449,7 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
   }
   diagnostics.add(
       file_finding(Severity::Warning, "mjcf.left-out",
-                   std::string("the visuals are left out, because MuJoCo refuses them: ") +
+                   std::string("the visuals are skipped, because MuJoCo refuses them: ") +
                        mjs_getError(built.spec.get()),
                    "", 0));
   Diagnostics again;

@@ -14,14 +14,14 @@
 
 namespace tenon::mjcf {
 
-/// The scene as text in MuJoCo's own format (engines/mujoco/write_mjcf.h) with what is seen of it:
+/// The scene as text in MuJoCo's own format (engines/mujoco/write_mjcf.h) with its visuals:
 /// `visuals` has a link for each body of the scene, in its frame, and one more for the world; only
 /// visuals, cameras, lights, meshes and materials are looked at. They become geoms of group 2 that
 /// touch nothing and weigh nothing; colliders are in group 3. Files of images have the names that
-/// the text is to have, `images` their bytes. Shapes and materials that MuJoCo has no word for go
-/// to `diagnostics` as "mjcf.left-out", all that is seen where MuJoCo refuses it. Of `parts`, of
-/// the same stage, actuators are added after drives that are none of them, and keyframes. Things
-/// are called as `name_of` says. Errors: those of making a model.
+/// the text uses, `images` their bytes. Shapes and materials that MuJoCo does not support go to
+/// `diagnostics` as "mjcf.left-out", all visuals where MuJoCo refuses them. Of `parts`, of the same
+/// stage, actuators are added after drives that are none of them, and keyframes. Things are called
+/// as `name_of` says. Errors: those of making a model.
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
                                 const scene::MujocoParts& parts, const NameOf& name_of,

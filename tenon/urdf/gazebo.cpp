@@ -103,7 +103,7 @@ struct GazeboSettings {
   robot::Link& link;
   std::size_t& rays;       ///< of the robot
   bool of_joint = false;   ///< the element is of the joint above the link
-  std::string without;     ///< what is left out of the last one that was taken
+  std::string without;     ///< parts that are skipped of the last one that was taken
   pugi::xml_node colored;  ///< the one that says a colour
   std::optional<robot::Material> color;
 };
@@ -276,7 +276,7 @@ bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> ki
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// What measures at one point; false: of a kind that assets have no word for.
+/// An instrument at one point; false: of a kind that assets do not support.
 bool take_instrument(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settings) {
   const std::string_view kind = sensor.attribute("type").value();
   const bool measures_force = kind == "force_torque";
@@ -295,8 +295,8 @@ bool take_instrument(pugi::xml_node sensor, const Pose& pose, GazeboSettings& se
   return true;
 }
 
-/// A sensor of a link, or of the joint above it; false: of a kind that assets have no word for.
-/// All of them measure at all times, which is no setting.
+/// A sensor of a link, or of the joint above it; false: of a kind that assets do not support. All
+/// of them measure at all times, which is no setting.
 bool take_sensor(pugi::xml_node sensor, GazeboSettings& settings) {
   const std::string_view kind = sensor.attribute("type").value();
   const std::optional<Pose> pose = pose_in(sensor.child("pose"));
@@ -324,7 +324,7 @@ bool take_sensor(pugi::xml_node sensor, GazeboSettings& settings) {
   return true;
 }
 
-/// false: left out.
+/// false: skipped.
 bool take_setting(pugi::xml_node setting, GazeboSettings& settings) {
   const std::string_view name = setting.name();
   if (name == "sensor") {
@@ -353,7 +353,7 @@ void UrdfReader::read_gazebo(pugi::xml_node element) {
   if (link == links_.end() && joint == joints_.end()) {
     xml_.warn(element, "urdf.extension",
               "holds settings for Gazebo" + (whose.empty() ? "" : " (of \"" + whose + "\")") +
-                  "; what it says is left out",
+                  "; they are skipped",
               "");
     return;
   }
@@ -387,7 +387,7 @@ void UrdfReader::read_gazebo(pugi::xml_node element) {
   }
   if (!left.empty()) {
     xml_.warn(element, "urdf.extension",
-              "holds settings for Gazebo (of \"" + whose + "\") that are left out: " + left, "");
+              "holds settings for Gazebo (of \"" + whose + "\") that are skipped: " + left, "");
   }
 }
 

@@ -180,7 +180,7 @@ Result<void> UrdfReader::read_mimics() {
     if (leader == joints_.end()) {
       xml_.warn(mimic, "urdf.joint-missing",
                 "no joint is named \"" + name + "\"; the mimic of joint \"" +
-                    model_.joints[i].name + "\" is left out",
+                    model_.joints[i].name + "\" is skipped",
                 "name one of the joints", Severity::Error);
       continue;
     }

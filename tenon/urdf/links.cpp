@@ -3,8 +3,8 @@
 //
 // URDF gives full sizes, the model half sizes. Each mesh name gets its number when it is first met
 // and is looked for once. A mesh that is not found keeps its number with an empty path, and each
-// shape that uses it is reported and left out, while the link stays; so is an inertial without
-// mass. A number that is none ends the reading.
+// shape that uses it is reported and skipped, while the link stays; so is an inertial without mass.
+// A token that is not a number ends the reading.
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {
@@ -28,7 +28,7 @@ Result<void> UrdfReader::read_link(pugi::xml_node element) {
     TENON_TRY(link.inertial, read_inertial(inertial));
     if (inertial.next_sibling("inertial")) {
       xml_.warn(inertial.next_sibling("inertial"), "urdf.left-out",
-                "is the second one of the link; it is left out", "keep one");
+                "is the second one of the link; it is skipped", "keep one");
     }
   }
   for (const pugi::xml_node visual : element.children("visual")) {
@@ -51,7 +51,7 @@ Result<std::optional<robot::Inertial>> UrdfReader::read_inertial(pugi::xml_node 
   inertial.axes = origin.orientation;
   const pugi::xml_node mass = element.child("mass");
   if (!mass) {
-    xml_.warn(element, "urdf.missing", "has no <mass>; it is left out",
+    xml_.warn(element, "urdf.missing", "has no <mass>; it is skipped",
               "add <mass value=\"...\"/> [kg]", Severity::Error);
     return std::optional<robot::Inertial>();
   }
@@ -117,7 +117,7 @@ Result<void> UrdfReader::read_collision(pugi::xml_node element, robot::Link& lin
 Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element) {
   const pugi::xml_node outer = element.child("geometry");
   if (!outer) {
-    xml_.warn(element, "urdf.missing", "has no <geometry>; it is left out", "add one",
+    xml_.warn(element, "urdf.missing", "has no <geometry>; it is skipped", "add one",
               Severity::Error);
     return std::optional<Geometry>();
   }
@@ -150,7 +150,7 @@ Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element
     }
   }
   xml_.warn(outer, "urdf.shape",
-            "holds no shape that is known; the " + std::string(element.name()) + " is left out",
+            "has no known shape; the " + std::string(element.name()) + " is skipped",
             "give it a box, sphere, cylinder, capsule or mesh", Severity::Error);
   return std::optional<Geometry>();
 }
@@ -190,11 +190,11 @@ void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node 
   const auto refusal = refusals_.find(written);
   if (refusal == refusals_.end()) {
     xml_.warn(element, "urdf.mesh-missing",
-              "the mesh \"" + written + "\" cannot be found; the shape is left out",
+              "the mesh \"" + written + "\" cannot be found; the shape is skipped",
               paths_.advice(written), Severity::Error);
   } else {
     const Diagnostic& why = refusal->second.diagnostic();
-    xml_.warn(element, why.rule.c_str(), "the mesh " + why.message + "; the shape is left out",
+    xml_.warn(element, why.rule.c_str(), "the mesh " + why.message + "; the shape is skipped",
               why.fix, Severity::Error);
   }
 }

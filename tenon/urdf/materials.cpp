@@ -38,14 +38,14 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
     const std::string written = texture.attribute("filename").value();
     const Result<std::string> file = written.empty() ? std::string() : paths_.find(written);
     if (written.empty()) {
-      xml_.warn(texture, "urdf.missing", "names no file; it is left out", "write filename=\"...\"");
+      xml_.warn(texture, "urdf.missing", "names no file; it is skipped", "write filename=\"...\"");
     } else if (!file && !file.error().diagnostic().rule.empty()) {
       const Diagnostic& why = file.error().diagnostic();
-      xml_.warn(texture, why.rule.c_str(), "the texture " + why.message + "; it is left out",
+      xml_.warn(texture, why.rule.c_str(), "the texture " + why.message + "; it is skipped",
                 why.fix, Severity::Error);
     } else if (!file) {
       xml_.warn(texture, "urdf.texture-missing",
-                "the texture \"" + written + "\" cannot be found; it is left out",
+                "the texture \"" + written + "\" cannot be found; it is skipped",
                 paths_.advice(written), Severity::Error);
     }
     if (file && paths_.is_guess(written)) {

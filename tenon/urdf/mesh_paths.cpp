@@ -188,7 +188,7 @@ std::optional<std::string> MeshPaths::look_for(const std::string& written) {
   if (const auto parts = package_parts(written)) {
     return find_in_package(parts->first, parts->second);
   }
-  // A relative path behind "file:" and two slashes is none of URI's forms; other readers take it.
+  // A relative path behind "file:" and two slashes is not a valid URI; other readers accept it.
   constexpr std::string_view kFile = "file://";
   const std::string place = written.starts_with(kFile) ? written.substr(kFile.size()) : "/";
   const bool relative = !place.starts_with("/") && !place.starts_with("localhost/");

@@ -46,9 +46,10 @@ class Replacement {
       split_capsules(link.colliders);
     }
     if (capsules_ > 0) {
-      report(Severity::Info, std::to_string(capsules_) +
-                                 " capsules, which URDF has no word for, are written as a cylinder "
-                                 "and two spheres each");
+      report(Severity::Info,
+             std::to_string(capsules_) +
+                 " capsules, which URDF does not support, are written as a cylinder "
+                 "and two spheres each");
     }
     const std::size_t count = model_.joints.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -126,11 +127,11 @@ class Replacement {
     const robot::Link on_it = model_.links[child];
     const std::array<Index, 2> between = {add_link(name + "_x_link", on_it),
                                           add_link(name + "_y_link", on_it)};
-    report(Severity::Warning, "the ball \"" + name +
-                                  "\", which URDF has no word for, is written as three hinges with "
-                                  "two links of a millionth of the mass of \"" +
-                                  on_it.name +
-                                  "\"; near a right angle of the second they lose a direction");
+    report(Severity::Warning,
+           "the ball \"" + name +
+               "\", which URDF does not support, is written as three hinges with "
+               "two links of a millionth of the mass of \"" +
+               on_it.name + "\"; near a right angle of the second they lose a direction");
     robot::Joint& first = model_.joints[number];
     first.kind = JointKind::Continuous;
     first.axis = {{1, 0, 0}};

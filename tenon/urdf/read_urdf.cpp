@@ -101,7 +101,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
         xml_.warn(child, "urdf.extension",
                   std::string("holds ") + extension.what +
                       (whose.empty() ? "" : " (of \"" + whose + "\")") +
-                      "; what it says is left out",
+                      "; its settings are skipped",
                   "");
       }
     }

@@ -66,7 +66,7 @@ TEST_F(ReadUrdf, TakesInertials) {
 }
 
 TEST_F(ReadUrdf, PlacesAreThoseOfTagsAndAttributesInBytes) {
-  // A tab, letters of two bytes and line ends of two bytes stand in front.
+  // A tab, letters of two bytes and line ends of two bytes come first.
   const std::string text =
       "<robot name=\"r\">\r\n<!-- \xc3\xbc > -->\r\n\t<link name='\xc3\xa4'\r\n   "
       "colour = \"a>b\" name2=''/>\r\n</robot>\r\n";
@@ -260,7 +260,7 @@ TEST_F(ReadUrdf, TakesSensorsThatNameTheirLinkOrJoint) {
   EXPECT_NE(findings_.items()[0].message.find("\"turn\" (gyroscope) without its noise"),
             std::string::npos);
   const robot::Link& hand = model->links[1];
-  ASSERT_EQ(hand.sites.size(), 2u);  // Gazebo speaks of the force and torque, too
+  ASSERT_EQ(hand.sites.size(), 2u);  // Gazebo defines the force and torque, too
   EXPECT_EQ(hand.sites[0].sensors[0].kind, robot::SiteSensorKind::ForceTorque);
   EXPECT_EQ(hand.sites[1].sensors[0].kind, robot::SiteSensorKind::Imu);
   EXPECT_EQ(hand.sites[1].pose.position, (Vec3d{{1, 2, 3}}));
@@ -469,7 +469,7 @@ TEST_F(ReadUrdf, LeavesOutMeshesThatLieOutside) {
   const bytes::ReadPolicy reading({(root / "robot").string()});
   const auto model = read_urdf((root / "robot/r.urdf").string(), {{}, {}, reading}, findings_);
   ASSERT_TRUE(model) << model.error().to_string();
-  EXPECT_EQ(model->links[0].visuals.size(), 1u);  // what lies beside by custom
+  EXPECT_EQ(model->links[0].visuals.size(), 1u);  // what is next to it by convention
   ASSERT_EQ(findings_.size(), 6u);
   for (const Diagnostic& finding : findings_) {
     EXPECT_EQ(finding.rule, bytes::kOutsideRule);

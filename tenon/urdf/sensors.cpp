@@ -57,7 +57,7 @@ void UrdfReader::read_sensor(pugi::xml_node element) {
   const bool of_joint = kind == SiteSensorKind::ForceTorque;
   const Result<Pose> pose = xml_.origin(element);
   if (!kind || !pose || (of_joint ? joint == joints_.end() : link == links_.end())) {
-    xml_.warn(element, "urdf.extension", what + "; what it says is left out", "");
+    xml_.warn(element, "urdf.extension", what + "; its settings are skipped", "");
     return;
   }
   SiteSensor sensor;

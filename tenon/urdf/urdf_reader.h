@@ -12,11 +12,11 @@
 /// Internal to this folder.
 namespace tenon::urdf {
 
-/// Says that `file` stands for `what`, which is not at its place.
+/// Reports that `file` is used for `what`, which is not at its place.
 void report_guess(XmlReader& xml, pugi::xml_node element, const std::string& what,
                   const std::string& file, std::string advice);
 
-/// One reading of a description: passes over the elements below <robot>.
+/// One reading of a description: several walks through the elements below <robot>.
 class UrdfReader {
  public:
   UrdfReader(XmlReader& xml, MeshPaths paths) : xml_(xml), paths_(std::move(paths)) {}
@@ -65,9 +65,9 @@ class UrdfReader {
   std::unordered_map<std::string, robot::Index> material_numbers_;  // by all that they say
   std::unordered_map<std::string, robot::Index> first_material_;    // by name
   std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
-  std::unordered_map<std::string, Error> refusals_;                 // of meshes, by what is written
-  std::size_t rays_ = 0;                                            // of laser scanners
-  std::vector<pugi::xml_node> joint_elements_;                      // (joint_count)
+  std::unordered_map<std::string, Error> refusals_;  // of meshes, by the written name
+  std::size_t rays_ = 0;                             // of laser scanners
+  std::vector<pugi::xml_node> joint_elements_;       // (joint_count)
 };
 
 }  // namespace tenon::urdf

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One pass over a text that has been parsed, so each construct has its end. Other readers of robot
-// descriptions refuse what is found here; who writes such a file should learn it from this one.
+// One scan of a text that has been parsed, so each construct has its end. Other readers of robot
+// descriptions refuse what is found here; authors of such files should learn it from this one.
 #include "tenon/urdf/well_formed.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class WellFormedScan {
       return;
     }
     if (const std::size_t stray = part.find("]]>"); stray != part.npos) {
-      report(begin + stray, "\"]]>\" stands in text");
+      report(begin + stray, "\"]]>\" in text");
     }
     scan_entities(begin, part);
   }
@@ -101,11 +101,11 @@ class WellFormedScan {
     const std::size_t end = skip_to("-->", begin);
     const std::string_view part = text_.substr(std::min(begin, end), end - std::min(begin, end));
     if (const std::size_t dashes = part.find("--"); dashes != part.npos) {
-      report(begin + dashes, "\"--\" stands in a comment");
+      report(begin + dashes, "\"--\" in a comment");
     }
   }
 
-  /// Its own declarations stand in brackets.
+  /// Its own declarations are in brackets.
   void skip_document_type() {
     has_type_ = true;
     const std::size_t stop = text_.find_first_of("[>", at_);
@@ -157,7 +157,7 @@ class WellFormedScan {
     }
     const std::string_view value = text_.substr(open + 1, close - open - 1);
     if (const std::size_t less = value.find('<'); less != value.npos) {
-      report(open + 1 + less, "\"<\" stands in a value; write &lt;");
+      report(open + 1 + less, "\"<\" in a value; write &lt;");
     }
     scan_entities(open + 1, value);
     at_ = close + 1;

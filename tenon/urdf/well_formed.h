@@ -15,9 +15,9 @@ struct XmlFault {
   std::string message;
 };
 
-/// The first breach of XML 1.0 that the parser, which balances tags and quotes, passes over: a
-/// second root, text outside of it, "<" and unknown entities in text and values, attributes given
-/// twice, "--" in comments, "]]>" in text, a declaration that does not come first.
+/// The first breach of XML 1.0 that the parser, which balances tags and quotes, accepts: a second
+/// root, text outside of it, "<" and unknown entities in text and values, attributes given twice,
+/// "--" in comments, "]]>" in text, a declaration that does not come first.
 std::optional<XmlFault> well_formed_fault(std::string_view text);
 
 }  // namespace tenon::urdf

@@ -152,7 +152,7 @@ class UrdfWriter {
         break;
       case GeometryKind::Ellipsoid:
       case GeometryKind::Plane:
-        break;  // URDF has no word for them
+        break;  // URDF does not support them
     }
     out_.close("geometry");
   }
@@ -190,7 +190,7 @@ class UrdfWriter {
     out_.close("link");
   }
 
-  /// Readers ask for effort and velocity wherever there is a limit; 0 stands for none.
+  /// Readers require effort and velocity wherever there is a limit; 0 means none.
   void write_limit(const robot::Joint& joint) {
     const auto or_zero = [](double value) { return text_of({std::isfinite(value) ? value : 0}); };
     const std::string effort = or_zero(joint.effort_limit);
@@ -265,7 +265,7 @@ class UrdfWriter {
 
 Vec3d rpy_of(const Quatd& q) {
   const double sine = 2 * (q.w * q.y - q.z * q.x);
-  if (std::fabs(sine) > 1 - 1e-12) {  // straight up or down: yaw says nothing of its own
+  if (std::fabs(sine) > 1 - 1e-12) {  // straight up or down: roll and yaw are one angle
     return {{2 * std::atan2(q.x, q.w), std::copysign(std::acos(-1.0) / 2, sine), 0}};
   }
   return {{std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y)),

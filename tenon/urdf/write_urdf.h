@@ -12,8 +12,8 @@ namespace tenon::urdf {
 /// balls into what that has; numbers are those of the asset (base/text/source_number.h).
 /// Orientations are roll, pitch and yaw [rad]; meshes are named by MeshFile::written. Written are
 /// links, joints, limits, mimics of a multiplier and an offset, damping, friction, safety limits,
-/// calibration and materials. All else of the model is left out, ellipsoids and planes among it;
-/// whoever calls says so.
+/// calibration and materials. All else of the model is skipped, ellipsoids and planes among it; the
+/// caller reports it.
 std::string write_urdf(const robot::RobotModel& model);
 
 /// Roll, pitch and yaw [rad] of an orientation, as URDF turns: about x, then y, then z, all fixed.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parser keeps of each element only where its name stands in the text. The start tag and its
+// The parser keeps of each element only the place of its name in the text. The start tag and its
 // attributes are found again from there by a scan that respects quotes, and a sorted list of line
 // starts turns offsets into lines and columns. A tag is scanned for a few thousand bytes at most,
 // and only a limited number of findings is placed, so a hostile text does not make the time grow
@@ -147,14 +147,14 @@ void XmlReader::list_unknown(pugi::xml_node element,
     if (!contains(attributes, name) && !name.starts_with("xmlns")) {
       warn(element, "urdf.left-out",
            "the attribute " + std::string(name) + "=\"" + attribute.value() +
-               "\" is not known; it is left out",
+               "\" is unknown; it is skipped",
            "", Severity::Warning, name);
     }
   }
   for (const pugi::xml_node child : element.children()) {
     if (child.type() == pugi::node_element && !contains(children, child.name())) {
       warn(child, "urdf.left-out",
-           "is not known inside <" + std::string(element.name()) + ">; it is left out", "");
+           "is unknown inside <" + std::string(element.name()) + ">; it is skipped", "");
     }
   }
 }

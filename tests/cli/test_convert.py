@@ -32,7 +32,7 @@ def files_of(folder):
 
 
 class BadMeshes(unittest.TestCase):
-    """A mesh with numbers that are none is left out: no NaN reaches an asset."""
+    """A mesh with numbers that are none is skipped: no NaN reaches an asset."""
 
     HEAD = struct.pack("<80xI", 2)
     FIRST = struct.pack("<12f2x", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 1, 0)
@@ -61,14 +61,14 @@ class BadMeshes(unittest.TestCase):
                             if d["rule"] == "convert.mesh-unreadable"]
                     self.assertEqual(len(told), 1)
                     self.assertIn(words, told[0])
-                    self.assertIn("is left out", told[0])
+                    self.assertIn("is skipped", told[0])
                     text = asset.read_text(encoding="utf-8")
                     self.assertNotRegex(text, r"\b(nan|inf)\b")
                     self.assertNotIn("def Mesh", text)
 
 
 class NamesOfImages(unittest.TestCase):
-    """An image whose name no asset path can hold is left out; what is written can be read."""
+    """An image whose name no asset path can hold is skipped; what is written can be read."""
 
     MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
     ROBOT = ('<robot name="r"><material name="m"><texture filename="a%s.png"/></material>'

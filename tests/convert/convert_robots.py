@@ -110,7 +110,7 @@ def check_gazebo(work):
     code, rules, answer = convert(URDF / "gazebo.urdf", target)
     expect("gazebo: findings", (code, rules), (0, ["urdf.extension"] * 3))
     said = " ".join(finding["message"] for finding in answer["diagnostics"])
-    for left in ("left out: maxVel", "left out: provideFeedback", 'sensor "ping" (sonar)',
+    for left in ("skipped: maxVel", "skipped: provideFeedback", 'sensor "ping" (sonar)',
                  'sensor "scan" (gpu_ray) without its resolution, noise, update_rate, plugin'):
         expect(f"gazebo: {left}", left in said, True)
     scene = physics(target)

@@ -64,7 +64,7 @@ class Engines(unittest.TestCase):
                  if d["rule"] == "structure.loose-layer"}
         self.assertEqual(set(loose), {"havok.usda", "notes.usda"})
         self.assertIn('becomes the variant "havok"', loose["havok.usda"])
-        self.assertIn("left out", loose["notes.usda"])
+        self.assertIn("skipped", loose["notes.usda"])
         interface = out / "inspire_hand.usda"
         masses = {body["path"]: body["mass"] for body in bodies_of(interface, "havok")}
         self.assertEqual(masses["/inspire_hand/r_base_link"], 3)

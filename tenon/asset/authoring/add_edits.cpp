@@ -40,7 +40,7 @@ std::string quaternion_text(const Quatd& q) {
          float_text(q.z) + ")";
 }
 
-/// "1,2,3" stands for "(1, 2, 3)".
+/// "1,2,3" means "(1, 2, 3)".
 std::string tuple_text(const std::string& text) {
   const bool number = !text.empty() && (text.front() == '-' || text.front() == '.' ||
                                         (text.front() >= '0' && text.front() <= '9'));

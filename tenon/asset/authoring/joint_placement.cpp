@@ -29,7 +29,7 @@ Side side_of(const stage::Prim& prim, double start) {
   return {world, rigid_part(world).orientation};
 }
 
-/// What is left of numbers that cancel is none.
+/// Rounding noise of numbers that cancel becomes 0.
 double without_noise(double value, double size) {
   return std::abs(value) < 1e-9 * size ? 0 : value;
 }

@@ -46,7 +46,7 @@ struct Kind {
 };
 
 const std::vector<Kind>& authoring_kinds();
-/// Null: there is none of that name.
+/// Null: no kind has that name.
 const Kind* find_kind(std::string_view name);
 std::vector<std::string> kind_names();
 

@@ -30,8 +30,8 @@ Result<void> check_options(const AuthoringRequest& request,
 /// The lists of IsaacRobotAPI.
 inline constexpr const char* kRobotLinks = "isaac:physics:robotLinks";
 inline constexpr const char* kRobotJoints = "isaac:physics:robotJoints";
-/// This list of the robot that `prim` stands below; empty where there is no robot, or it has no
-/// such list.
+/// This list of the robot that contains `prim`; empty where there is no robot, or it has no such
+/// list.
 Path robot_list(const Stages& stages, Path prim, const char* list);
 
 /// The prim under the first selection that has it; an invalid one where none has.

@@ -20,7 +20,7 @@ class Baseline {
   /// The text of a baseline with these findings, to be written to `path`.
   static std::string text_of(const std::vector<ReportedFinding>& findings, const std::string& path);
 
-  /// Marks what is known; of several equal ones as many as the baseline has.
+  /// Marks known findings; of several equal ones as many as the baseline has.
   void suppress(std::vector<ReportedFinding>& findings) const;
 
  private:

@@ -96,7 +96,7 @@ bytes::ReadPolicy side_policy(const std::string& path, const CompareOptions& opt
   return policy_for(is_folder(path, options) ? path + "/." : path, options.open);
 }
 
-/// Files of a package or folder: name below it -> identifier. Hidden ones are left out.
+/// Files of a package or folder: name below it -> identifier. Hidden ones are skipped.
 Result<std::map<std::string, std::string>> files_of(const std::string& path,
                                                     const CompareOptions& options) {
   std::map<std::string, std::string> files;

@@ -85,7 +85,7 @@ Json pair_json(const ComparedEngines& compared, const EnginePair& pair) {
   return json;
 }
 
-/// In quotes where a comma or a quote stands in it.
+/// In quotes where it contains a comma or a quote.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) {
     return text;

@@ -26,7 +26,7 @@ std::string compared_engines_csv(const ComparedEngines& compared);
 std::string compared_engines_html(const std::string& asset, const ComparedEngines& compared,
                                   bool timing);
 
-/// The same without the frame of a page, to stand in another one.
+/// The same without the frame of a page, to be embedded in another one.
 std::string compared_engines_part(const ComparedEngines& compared, bool timing);
 
 }  // namespace tenon

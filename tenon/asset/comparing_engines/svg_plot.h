@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// Small plots as SVG, to stand in a page.
+/// Small plots as SVG, to be embedded in a page.
 namespace tenon {
 
 struct Curve {
@@ -22,7 +22,7 @@ struct Plot {
 };
 
 /// Time in seconds to the right; at most 600 points a curve are drawn, each the one of its part of
-/// the time that lies farthest from the one before. Points that are not finite are left out.
+/// the time that lies farthest from the one before. Points that are not finite are skipped.
 std::string svg_plot(const Plot& plot);
 
 /// `text` with the five characters of markup escaped.

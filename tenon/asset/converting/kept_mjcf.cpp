@@ -69,14 +69,14 @@ void leave_out_physx(std::vector<std::string>& changed, Diagnostics& diagnostics
     return physx;
   });
   if (!left.empty()) {
-    diagnostics.add(file_finding(
-        Severity::Warning, "mjcf.left-out",
-        "what was edited for PhysX alone is left out of the model: " + named_few(left), "", 0));
+    diagnostics.add(
+        file_finding(Severity::Warning, "mjcf.left-out",
+                     "edits for PhysX alone are skipped in the model: " + named_few(left), "", 0));
   }
 }
 
-/// What stands beside an edit that a model can take over: the schema that declares the property,
-/// and what a material says, which is told by the shapes that it is bound to.
+/// What may accompany an edit that a model can take over: the schema that declares the property,
+/// and properties of a material, which go to the shapes that it is bound to.
 bool goes_along(const std::string& word, bool has_bindings) {
   constexpr std::string_view kSchemas[] = {"api:PhysicsMassAPI",     "api:NewtonMassAPI",
                                            "api:NewtonJointAPI",     "api:MjcJointAPI",
@@ -119,7 +119,9 @@ Edits edits_of(const std::vector<std::string>& changed, const std::vector<std::s
 void report_written_anew(Diagnostics& diagnostics, const std::string& why) {
   diagnostics.add(file_finding(
       Severity::Warning, "mjcf.written-anew",
-      "what MJCF alone has is left out, because the model is made anew: " + why, "", 0));
+      "elements that only MJCF has are dropped, because the model is generated from the asset: " +
+          why,
+      "", 0));
 }
 
 /// Display names where prims have such.
@@ -133,7 +135,7 @@ std::string name_on(const stage::Stage& stage, Path path) {
   return path.name().str();
 }
 
-/// What is seen, where an edit is about it.
+/// The visuals, where an edit is about them.
 robot::RobotModel seen_of(const std::vector<PropertyEdit>& edits, const stage::Stage& stage,
                           const scene::PhysicsScene& scene) {
   const auto is_seen = [](const PropertyEdit& edit) {

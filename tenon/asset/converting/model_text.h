@@ -26,7 +26,7 @@ class ModelText {
   ModelText& operator=(ModelText&&) noexcept = default;
 
   /// "body", "joint" and "geom" of the world, "actuator" whatever its element is called; none where
-  /// there is none of that name, or several.
+  /// no element, or several, have that name.
   pugi::xml_node named(std::string_view kind, const std::string& name) const;
   bool is_spring(pugi::xml_node actuator) const;
   /// The only actuator of a joint that is a spring and a damper about it; none: another number.

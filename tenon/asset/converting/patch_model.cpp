@@ -354,7 +354,7 @@ std::string write_time_step(Patching& at, Path prim) {
 }
 
 // Shapes.
-/// Colliders have a name of their own; a mesh may stand below the prim with the name.
+/// Colliders have a name of their own; a mesh may be below the prim with the name.
 pugi::xml_node geom_of(Patching& at, Path prim) {
   constexpr std::string_view kEnding = "_collider";
   for (const Path path : {prim, prim.parent()}) {

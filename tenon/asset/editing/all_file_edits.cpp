@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every file that may speak of a prim has it at one path (prim_sites.h), so that its specs are
-// edited layer by layer, whichever variants are selected; the scenes are composed afterwards and
-// show whether another file, which is not the asset's own, still has it.
+// Every file that may define a prim has it at one path (prim_sites.h), so that its specs are edited
+// layer by layer, whichever variants are selected; the scenes are composed afterwards and show
+// whether another file, which is not the asset's own, still has it.
 #include "tenon/asset/editing/all_file_edits.h"
 
 #include <algorithm>
@@ -155,7 +155,7 @@ Result<void> check_done_in_all_files(const stage::Stage& stage, const AssetEdit&
                    "> is still there: a file that is not the asset's own has it")
       .with_prim(edit.object.str())
       .with_rule("edit.hidden")
-      .with_fix("tenon where names the files that speak of it");
+      .with_fix("tenon where names the files that define it");
 }
 
 }  // namespace tenon

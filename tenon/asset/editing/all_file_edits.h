@@ -13,7 +13,7 @@
 #include "tenon/stage/stage.h"
 #include "tenon/structure/layout.h"
 
-/// Edits of prims in every file that speaks of them. Internal to the wiring.
+/// Edits of prims in every file that defines them. Internal to the wiring.
 namespace tenon {
 
 struct AllFiles {
@@ -23,7 +23,7 @@ struct AllFiles {
 };
 
 /// Makes the edit; a place for each file, and for each list of targets that lost one. Errors: those
-/// of prim_sites.h and spec_edits.h; NotFound (edit.no-spec) where no own file speaks of it.
+/// of prim_sites.h and spec_edits.h; NotFound (edit.no-spec) where no own file defines it.
 Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit);
 
 /// The file of an engine whose variant the edit removes, which goes with it; empty where none does.

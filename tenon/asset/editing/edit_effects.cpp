@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A wish has an effect when engines receive something else without its edits. Reading the physics
-// once for each wish would take long where there are hundreds, so that they are left out together,
-// in rounds in which no two speak of one prim: a difference of an object is due to the wish that
-// speaks of its prim. What is left after the rounds is left out all at once: where nothing differs
-// then, none of it has an effect; else each half is looked at by itself. What composes to the value
-// that was there before is not judged: it is as it was asked for.
+// once for each wish would take long where there are hundreds, so they are removed together, in
+// rounds in which no two are about one prim: a difference of an object is due to the wish about its
+// prim. The rest is then removed all at once: where nothing differs then, none of it has an effect;
+// else each half is looked at by itself. A property that composes to the value that was there
+// before is not judged: it is as requested.
 #include "tenon/asset/editing/edit_effects.h"
 
 #include <algorithm>

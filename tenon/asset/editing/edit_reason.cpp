@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The reader of physics has often said why already: in a finding about the property, or about
-// another prim that names this one and speaks of the same thing, such as an actuator that replaces
-// a drive. Next come what is listed as not read and what the prim is not: colliders are shapes,
+// another prim that names this one and is about the same thing, such as an actuator that replaces a
+// drive. Next come what is listed as not read and what the prim is not: colliders are shapes,
 // masses are of bodies and colliders, the numbers of joints of joints.
 #include "tenon/asset/editing/edit_reason.h"
 

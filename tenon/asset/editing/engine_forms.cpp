@@ -234,7 +234,7 @@ Result<std::vector<AssetEdit>> with_engine_forms(const std::string& asset, Edits
   if (!options.engine.empty() || !options.layer.empty()) {
     return Error(ErrorCode::Invalid, "all engines and one file or engine are two things")
         .with_rule("usage.conflict")
-        .with_fix("leave out --all-engines, or --engine and --in");
+        .with_fix("give either --all-engines, or --engine and --in");
   }
   Diagnostics ignored;  // the edit composes again and reports
   TENON_TRY(AssetEditor editor, AssetEditor::open(asset, options, ignored));

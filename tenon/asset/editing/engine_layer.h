@@ -18,7 +18,7 @@ struct EngineLayer {
 };
 
 /// The two for "physx", "mujoco" or "newton"; nullopt where `interface` opens no asset of the
-/// structure 3.0 with physics, has such a variant, or the engine is none of these.
+/// structure 3.0 with physics, has such a variant, or the engine is another one.
 Result<std::optional<EngineLayer>> missing_engine_layer(const layer::Layer& interface,
                                                         const std::string& engine);
 

@@ -68,7 +68,7 @@ class PathTexts {
     return changed ? std::optional(Value(layer::Array<T>(std::move(list)))) : std::nullopt;
   }
 
-  /// A dictionary that is being made anew, up to the item that is next.
+  /// A dictionary that is being rebuilt, up to the next item.
   struct Open {
     const layer::Dictionary* from;
     std::map<std::string, Value, std::less<>>::const_iterator next;

@@ -79,7 +79,7 @@ class SiteSearch {
                                          path.str() + "> of " + shown_path(layer))
         .with_prim(prim_.str())
         .with_rule("edit.over-arc")
-        .with_fix("edit that file: tenon where names all that speak of it");
+        .with_fix("edit that file: tenon where names all that define it");
   }
 
   const structure::RolesOfFiles& roles_;

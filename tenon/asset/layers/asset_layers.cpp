@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct LayerNames {
   std::set<std::string> names;  ///< as the layer writes them
-  bool patterns = false;        ///< clips by a template, which stands for names
+  bool patterns = false;        ///< clips by a template for names
 };
 
 LayerNames layer_names(layer::Layer layer) {

@@ -37,10 +37,9 @@ class AssetLayers {
   Result<MadeFiles> in_place();
   /// The root layer for `output` and, in the folder "<output without its ending>_layers", every
   /// layer that is edited or leads to an edited one; asset paths follow. A folder (names_folder)
-  /// takes them all, each under its own name, where it stands beside the root layer. "-" is
-  /// standard output, for the root layer as text.
-  /// Errors: Unsupported for "-" where another layer is edited; Invalid for a folder where a layer
-  /// of the asset itself would be written over.
+  /// takes them all, each under its own name, where it is beside the root layer. "-" is standard
+  /// output, for the root layer as text. Errors: Unsupported for "-" where another layer is edited;
+  /// Invalid for a folder where a layer of the asset itself would be written over.
   Result<MadeFiles> elsewhere(const std::string& output);
   /// Every layer that one of them names is among them, so that composing finds none missing either.
   /// False also where a name has to be composed to be known.
@@ -89,7 +88,7 @@ struct LayerContents {
 };
 
 /// `layer` as the contents of `file`, text for "-". Where the layer's own file is text and the new
-/// one is to be text, its comments and layout stay but for what changed, if they can; `files` have
+/// one must be text, its comments and layout stay except for the changes, if possible; `files` have
 /// the layer's.
 Result<LayerContents> edited_contents(const layer::Layer& layer, const std::string& file,
                                       const bytes::Files& files);

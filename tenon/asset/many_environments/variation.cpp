@@ -108,7 +108,7 @@ bool is_of_drives(Parameter parameter) {
          parameter == Parameter::DriveMaxForce;
 }
 
-/// What is zero or unlimited stays so whatever the factor is, and is left out.
+/// Values that are zero or unlimited stay so whatever the factor is, and are skipped.
 void add_joint_values(const Variation& variation, const scene::PhysicsScene& scene,
                       std::vector<Value>& values) {
   const auto add = [&](const engines::ParameterKey& key, double now) {
@@ -185,7 +185,7 @@ Result<void> vary_joints(const Variation& variation, double offset,
   return any ? Result<void>() : Result<void>(no_object(variation));
 }
 
-/// Bodies that joints carry are passed over, unless one is named.
+/// Bodies that joints carry are skipped, unless one is named.
 Result<void> vary_bodies(const Variation& variation, const std::vector<double>& offset,
                          const scene::PhysicsScene& scene, engines::World& world) {
   bool any = false;

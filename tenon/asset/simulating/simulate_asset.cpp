@@ -57,7 +57,7 @@ Result<void> check_run(const bake::RunOptions& run, const engines::Simulation& s
   return check_recorded_states(states);
 }
 
-/// Who has to wait for an engine to make its model is told before.
+/// Announces that an engine is about to build its model, which may take long.
 void announce_setup(const SimulateAssetOptions& options, const std::string& engine,
                     const scene::PhysicsScene& scene, Diagnostics& diagnostics) {
   constexpr double kWorthTelling = 2;  // [s]
@@ -206,7 +206,7 @@ void tell_sensors(const SimulateAssetOptions& options, const SimulatedAsset& ass
                          [step](const scene::Sensor& sensor) { return remembers(sensor, step); })) {
     finding.rule = "sim.sensors-anew";
     finding.message =
-        "means and periods of sensors begin anew where the run is continued: a saved state has no "
+        "means and periods of sensors restart where the run is continued: a saved state has no "
         "measurements";
   }
   if (!finding.rule.empty()) {

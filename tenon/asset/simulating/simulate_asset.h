@@ -21,7 +21,7 @@
 /// A run as a value: an asset, what to do with it, and what came of it.
 namespace tenon {
 
-/// What is told while it goes on; each may be empty.
+/// Callbacks during the run; each may be empty.
 struct SimulationListener {
   Function<void(const std::string& what)> next_part;  ///< "simulating"
   /// A finding about work that will take long, before it begins; without it, it comes with the
@@ -72,7 +72,7 @@ struct SimulatedAsset {
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
 
-/// What is asked for; else what the stage's time range says, else 5 [s].
+/// The requested duration; else that of the stage's time range, else 5 [s].
 double run_duration(const std::optional<double>& asked, const scene::PhysicsScene& scene);
 
 /// Refuses a recording of so many states of bodies and joints that no memory holds it: Limit

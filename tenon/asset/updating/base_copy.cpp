@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Layers are kept in binary form, whatever form they have in the asset: small, and without a writer
-// of its own. Meshes would double an asset, so of long arrays a digest stands in their place, as a
-// string that begins with a mark; when the copy is read, arrays that are still known come back.
+// of its own. Meshes would double an asset, so a digest replaces long arrays, as a string that
+// begins with a mark; when the copy is read, arrays that are still known come back.
 #include "tenon/asset/updating/base_copy.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::string mark_of(std::size_t size, std::string_view numbers) {
          structure::hex_of(content_digest(numbers));
 }
 
-/// The digest that stands for a long array of numbers; empty for other values.
+/// The digest that replaces a long array of numbers; empty for other values.
 std::string array_mark(const Value& value) {
   if (!value.is_array() || value.size() <= kKeptElements) {
     return {};

@@ -19,7 +19,7 @@ namespace tenon {
 
 struct BaseCopy {
   structure::Digests digests;  ///< of all files by name; of that which opens the asset its own
-  std::map<std::string, layer::Layer> layers;  ///< by name; notes left out
+  std::map<std::string, layer::Layer> layers;  ///< by name, without notes
 };
 
 /// The bytes of the copy of a package with its layers stored.
@@ -29,8 +29,8 @@ Result<void> write_with_base(structure::Package package, const std::string& fold
                              const structure::WriteOptions& options);
 
 /// The copy of `folder`/`opening` at structure::copy_place; nothing where there is none, or one of
-/// another asset than the file's note (structure/written_note.h) speaks of. Errors: those of
-/// reading one that is there.
+/// another asset than that of the file's note (structure/written_note.h). Errors: those of reading
+/// one that is there.
 Result<std::optional<BaseCopy>> read_base(const std::string& folder, const std::string& opening);
 
 /// A layer of a copy as a reader of a text or of a binary file has it. Arrays that the copy has

@@ -16,7 +16,7 @@ namespace tenon {
 std::map<Path, Path> moved_prims(const std::vector<const layer::Layer*>& before,
                                  const std::vector<const layer::Layer*>& after);
 
-/// Moves them in one layer, as far as it speaks of them, with all that names them.
+/// Moves them in one layer, as far as it has specs of them, with all that names them.
 void follow_moves(const std::map<Path, Path>& moved, layer::Layer& layer);
 
 }  // namespace tenon

@@ -137,7 +137,7 @@ class AssetUpdate {
       return Error(ErrorCode::NotFound, "there is no asset to update")
           .in_file(path_of(made_.interface))
           .with_rule("update.nothing")
-          .with_fix("leave out --update, or give the name that it was made with");
+          .with_fix("remove --update, or give the name that it was made with");
     }
     TENON_TRY(base_, base_of(folder_, made_.interface));
     TENON_CHECK(check_inside(base_.digests, path_of(made_.interface)));

@@ -15,7 +15,7 @@
 #include "tenon/diff/merge/merge_layers.h"
 #include "tenon/structure/package.h"
 
-/// An asset that was edited, made anew from its source.
+/// An asset that was edited, converted again from its source.
 namespace tenon {
 
 /// What an edit and the source changed, each in another way; of a file that is no layer, or that

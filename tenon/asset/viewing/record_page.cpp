@@ -182,7 +182,7 @@ Result<std::string> RecordPage::taken(const std::string& script) {
               page_->text(call_text("take", Json::array({bytes.size(), count}))));
     const std::optional<std::string> more = bytes_of_base64(piece);
     if (!more || more->size() != count) {
-      return Error(ErrorCode::Io, "the page hands out something else than it has made")
+      return Error(ErrorCode::Io, "the page returned other data than it announced")
           .with_rule("browser.protocol");
     }
     bytes += *more;

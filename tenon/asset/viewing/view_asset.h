@@ -17,9 +17,9 @@
 /// What one sees of an asset, and files that show it.
 namespace tenon {
 
-/// What one sees of the asset at `path`, which is open as `stage` by `open` and read as `scene`.
-/// Images come from folders that may go into outputs (tenon/asset_policy.h). Colliders are left out
-/// where they are not asked for.
+/// The visuals of the asset at `path`, which is open as `stage` by `open` and read as `scene`.
+/// Images come from folders that may go into outputs (tenon/asset_policy.h). Colliders are included
+/// only on request.
 view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsScene& scene,
                               const std::string& path, const OpenOptions& open, bool colliders);
 
@@ -43,8 +43,8 @@ struct DrawnAsset {
   const bake::PoseRecording* played() const { return moves ? &motion : nullptr; }
 };
 
-/// Of the asset at `path`, thinned out to about `triangles` (0: all); what could not be shown is
-/// told (report_notes).
+/// Of the asset at `path`, simplified to about `triangles` (0: all); what could not be shown is
+/// reported (report_notes).
 DrawnAsset drawn_asset(const SimulatedAsset& asset, const std::string& path,
                        const OpenOptions& open, bool colliders, std::size_t triangles,
                        Diagnostics& diagnostics);

@@ -170,7 +170,7 @@ bool MaterialWriter::is_usable(const std::string& image, const robot::Material& 
   if (const std::optional<Error> refusal = refusal_of(image, images_, options_.reading)) {
     const Diagnostic& why = refusal->diagnostic();
     layer_.report(look.place, Severity::Error, why.rule.c_str(),
-                  "the texture of the material \"" + look.name + "\" is left out: " + why.message,
+                  "the texture of the material \"" + look.name + "\" is skipped: " + why.message,
                   why.fix);
     at->second = false;
   }

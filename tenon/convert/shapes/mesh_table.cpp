@@ -109,7 +109,7 @@ std::vector<MeshValues> MeshTable::read(const robot::MeshFile& file) {
     layer_.report(file.place, Severity::Error,
                   outside ? bytes::kOutsideRule : "convert.mesh-unreadable",
                   "the mesh \"" + file.written +
-                      "\" cannot be read and is left out: " + scene.error().to_string(),
+                      "\" cannot be read and is skipped: " + scene.error().to_string(),
                   why.fix);
     return parts;
   }

@@ -37,7 +37,7 @@ class ShapeWriter {
   const ShapePrims& prims() const { return prims_; }
 
  private:
-  /// What is written: a visual or a collider.
+  /// A visual or a collider to write.
   struct Shape {
     std::string name;
     const Pose& pose;

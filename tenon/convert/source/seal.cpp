@@ -48,7 +48,7 @@ std::string_view seen_as(Token type) {
                                           : std::string_view();
 }
 
-/// Of cameras and lights, what MuJoCo's have no word for.
+/// Properties of cameras and lights that MuJoCo does not support.
 bool is_skipped_there(std::string_view property) {
   return starts_with_any(
       property,

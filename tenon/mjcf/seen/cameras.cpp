@@ -73,9 +73,9 @@ class SeenReader {
     }
     for (int i = 0; i < model_.nlight; ++i) {
       if (model_.light_type[i] == mjLIGHT_IMAGE) {
-        source_.left_out(
-            "the light \"" + source_.name(mjOBJ_LIGHT, i, "light") + "\" is an image, and left out",
-            source_.line_of(mjOBJ_LIGHT, i));
+        source_.left_out("the light \"" + source_.name(mjOBJ_LIGHT, i, "light") +
+                             "\" is an image; it is skipped",
+                         source_.line_of(mjOBJ_LIGHT, i));
         continue;
       }
       link(model_.light_bodyid[i]).lights.push_back(read_light(i));

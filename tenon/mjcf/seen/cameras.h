@@ -8,7 +8,7 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Gives the links of `tree` their cameras and lights. Lights that are images are left out.
+/// Gives the links of `tree` their cameras and lights. Lights that are images are skipped.
 void read_cameras_and_lights(MjcfSource& source, BodyTree& tree);
 
 }  // namespace tenon::mjcf

@@ -96,7 +96,7 @@ class SeenWriter {
       if (!(camera.offset == Vec2d{})) {
         diagnostics_.add(file_finding(
             Severity::Warning, "mjcf.left-out",
-            "the film of camera <" + camera.name + "> is off its middle, which is left out", "",
+            "the film of camera <" + camera.name + "> is off its middle; the offset is skipped", "",
             0));
       }
     }

@@ -11,7 +11,7 @@
 namespace tenon::mjcf {
 
 /// Adds cameras and lights to bodies: those of `seen`, which has a link for each body of the scene
-/// and one more for the world. What MuJoCo has no word for is reported as "mjcf.left-out".
+/// and one more for the world. What MuJoCo does not support is reported as "mjcf.left-out".
 void write_cameras_and_lights(const robot::RobotModel& seen, const scene::PhysicsScene& scene,
                               const engines::mujoco::Model& model, mjSpec& spec,
                               Diagnostics& diagnostics);

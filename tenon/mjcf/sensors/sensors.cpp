@@ -4,10 +4,10 @@
 // MuJoCo's sensors are single quantities; those of one site are parts of one instrument: what
 // accelerates, turns and is oriented is an IMU, force and torque are a force-torque sensor, places
 // and velocities in the world those of a frame. A joint is measured as a whole. A touch sensor
-// counts contacts in the volume of its site, of which a sphere is the one that can be said
-// elsewhere. A range finder is a ray. What is measured of a body, a shape or a camera is measured
-// at a site of its own in the asset. Beside that each of MuJoCo's sensors is kept as it is, with
-// the instrument that stands for it, for models that are written of the asset.
+// counts contacts in the volume of its site; only a sphere can be expressed elsewhere. A range
+// finder is a ray. A quantity of a body, a shape or a camera is measured at a site of its own in
+// the asset. Beside that each of MuJoCo's sensors is kept as it is, with its instrument, for models
+// that are written of the asset.
 #include "tenon/mjcf/sensors/sensors.h"
 
 #include <algorithm>
@@ -185,7 +185,7 @@ class SensorList {
     }
   }
 
-  /// The site that stands for what is measured and is none, made where there is none yet.
+  /// The site of a measured object that is not a site itself, made where there is none yet.
   robot::Site& site_at(int sensor, Index link, const Pose& pose) {
     std::vector<robot::Site>& sites = tree_.links[link].sites;
     const auto key = std::pair(model_.sensor_objtype[sensor], model_.sensor_objid[sensor]);

@@ -80,7 +80,7 @@ std::string model_with(mjtSensor kind) {
   return {};
 }
 
-/// The element that stands in <sensor>.
+/// The element inside <sensor>.
 std::string word_in(const std::string& text) {
   const std::size_t start = text.find('<', text.find("<sensor>") + 1) + 1;
   return text.substr(start, text.find_first_of(" /", start) - start);

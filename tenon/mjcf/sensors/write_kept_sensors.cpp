@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sensor of MuJoCo's that the asset has as a prim goes back as it is, and the instrument that
-// measures it in runs is not written beside it. What it is of is found by the path of the prim, as
-// all things in the spec are named. The instrument may have been moved or sized since: then the
-// sensor is of a site that stands for the instrument.
+// A MuJoCo sensor that the asset has as a prim is written back as it is, and the instrument that
+// measures it in runs is not written beside it. Its object is found by the path of the prim, as all
+// things in the spec are named. The instrument may have been moved or sized since: then the sensor
+// measures at a site for the instrument.
 #include "tenon/mjcf/sensors/write_kept_sensors.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::set<Path> KeptSensorWriter::add(const std::vector<MujocoSensor>& sensors) {
   for (const MujocoSensor& from : sensors) {
     const Sensor* instrument = instrument_of(from);
     if (const std::string fault = fault_of(from, instrument); !fault.empty()) {
-      report_left_out(diagnostics_, from.path, "", fault + "; the sensor is left out");
+      report_left_out(diagnostics_, from.path, "", fault + "; the sensor is skipped");
       continue;
     }
     if (mjsElement* element = add(from)) {
@@ -77,7 +77,7 @@ mjsElement* KeptSensorWriter::add(const MujocoSensor& from) {
   mjsSensor* made = mjs_addSensor(&spec_);
   const std::string fault = make(from, *made);
   if (!fault.empty()) {
-    report_left_out(diagnostics_, from.path, "", fault + "; the sensor is left out");
+    report_left_out(diagnostics_, from.path, "", fault + "; the sensor is skipped");
     mjs_delete(&spec_, made->element);
     return nullptr;
   }
@@ -93,8 +93,8 @@ std::string KeptSensorWriter::make(const MujocoSensor& from, mjsSensor& made) {
   for (const scene::VendorSetting& setting : from.settings) {
     if (!set_sensor_numbers(made, setting.name, setting.numbers)) {
       report_left_out(diagnostics_, from.path, ("tenon:mujoco:sensor:" + setting.name).c_str(),
-                      "MuJoCo's sensors have no numbers of that name and length, which are "
-                      "left out");
+                      "MuJoCo's sensors have no numbers of that name and length; they are "
+                      "skipped");
     }
   }
   return {};

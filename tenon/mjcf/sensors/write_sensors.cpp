@@ -56,7 +56,7 @@ class SensorWriter {
 
  private:
   void leave_out(const Sensor& sensor, const std::string& what) {
-    report_left_out(diagnostics_, sensor.path, "", what + ", which is left out");
+    report_left_out(diagnostics_, sensor.path, "", what + "; it is skipped");
   }
 
   mjsSensor* add(mjtSensor type, const Sensor& sensor, const char* suffix, mjtObj kind,

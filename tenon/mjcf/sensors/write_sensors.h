@@ -12,8 +12,8 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Adds to the spec of a scene's model its sensors but those that are `written`, by path, each
-/// quantity as one of MuJoCo's. What MuJoCo has no word for is listed.
+/// Adds to the spec of a scene's model its sensors except those that are `written`, by path, each
+/// quantity as one of MuJoCo's. What MuJoCo does not support is listed.
 void write_sensors(const scene::PhysicsScene& scene, const std::set<Path>& written,
                    const engines::mujoco::Model& model, mjSpec& spec, Diagnostics& diagnostics);
 

@@ -85,7 +85,7 @@ std::optional<robot::Visual> read_geom(MjcfSource& source, int geom, bool is_wra
   if (!geometry) {
     source.report(
         Severity::Error, "mjcf.left-out",
-        "the geom \"" + shown + "\" is a height field or a distance field; it is left out");
+        "the geom \"" + shown + "\" is a height field or a distance field; it is skipped");
     return std::nullopt;
   }
   robot::Visual seen;

@@ -20,7 +20,7 @@ struct BodyShapes {
 };
 
 /// The shapes of all bodies (nbody), by MuJoCo's number. `meshes` are those of read_meshes;
-/// `materials` is asked how each visual looks. Geoms of other kinds are listed as left out.
+/// `materials` is asked how each visual looks. Geoms of other kinds are listed as skipped.
 std::vector<BodyShapes> read_geoms(MjcfSource& source, const std::vector<robot::MeshFile>& meshes,
                                    const ContactClasses& contacts, MaterialTable& materials);
 

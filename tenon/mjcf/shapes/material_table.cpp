@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Materials with the images that a surface network can say: files that are laid out flat by texture
+// Materials with the images that a surface network supports: files that are mapped flat by texture
 // coordinates of meshes. Others (cubes wrapped around a shape, patterns that MuJoCo paints, images
 // on shapes without such coordinates) are shown in their mean colour, and listed. Which materials
-// stand in mean colours is known when geoms have asked for theirs: they follow those of the model,
+// have mean colours is known when geoms have asked for theirs: they follow those of the model,
 // whose numbers stay MuJoCo's.
 #include "tenon/mjcf/shapes/material_table.h"
 
@@ -121,7 +121,7 @@ void MaterialTable::add_image(int number, int role, int texture, robot::Material
   if (file.path.empty()) {
     source_.left_out("the texture \"" + source_.name(mjOBJ_TEXTURE, texture, "texture") +
                          "\" of material \"" + material.name + "\" " + file.why_not +
-                         (color ? "; its mean colour stands for it" : "; it is left out"),
+                         (color ? "; its mean colour is used" : "; it is skipped"),
                      material.place.line);
     if (color) {
       tint(material, mean_color(model, texture));
@@ -199,14 +199,14 @@ void MaterialTable::report_plain() {
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     source_.left_out("the images of material \"" + materials_[material].name +
-                         "\" are left out on " + std::to_string(plain.geoms.size()) +
+                         "\" are skipped on " + std::to_string(plain.geoms.size()) +
                          " geoms without texture coordinates, which have its mean colour" +
                          lines_text(lines),
                      lines.front());
   }
 }
 
-/// What surfaces of UsdPreviewSurface have no word for: gloss as OpenGL counts it, mirrors, images
+/// Settings that UsdPreviewSurface does not support: gloss as OpenGL defines it, mirrors, images
 /// that are repeated by metres.
 void MaterialTable::report_settings() {
   const mjModel& model = source_.model();
@@ -223,8 +223,8 @@ void MaterialTable::report_settings() {
       uniform.push_back(material.place.line);
     }
   }
-  report_lines(source_, "specular, shininess and reflectance", "are left out", glossy);
-  report_lines(source_, "texuniform", "is left out, their images are repeated over each shape",
+  report_lines(source_, "specular, shininess and reflectance", "are skipped", glossy);
+  report_lines(source_, "texuniform", "is skipped, their images are repeated over each shape",
                uniform);
 }
 

@@ -15,15 +15,15 @@ namespace tenon::mjcf {
 /// The materials of a model, with those that its geoms turn out to need.
 class MaterialTable {
  public:
-  /// Reads all materials of the model. Images that cannot be shown are listed as left out.
+  /// Reads all materials of the model. Images that cannot be shown are listed as skipped.
   explicit MaterialTable(MjcfSource& source);
 
   /// How a geom looks, a number in the table; `has_coordinates`: its shape has a place in images
-  /// for each point. One without stands in mean colours.
+  /// for each point. One without gets mean colours.
   robot::Index of_geom(int geom, bool has_coordinates);
 
-  /// The table, when all geoms have asked. What materials have and surfaces cannot say is listed as
-  /// left out.
+  /// The table, when all geoms have asked. Settings of materials that surfaces do not support are
+  /// listed as skipped.
   std::vector<robot::Material> take();
 
  private:

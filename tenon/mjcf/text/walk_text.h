@@ -8,8 +8,8 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// Calls `with(section, tag, attribute, value)` for each attribute of a text in turn and puts what
-/// it answers in the value's place. `section` is the element of the first level that it stands in.
+/// Calls `with(section, tag, attribute, value)` for each attribute of a text in turn and replaces
+/// the value by its result. `section` is the enclosing element of the first level.
 template <class With>
 std::string walk_text(std::string_view text, const With& with) {
   std::string out;

@@ -5,7 +5,7 @@
 // are unique. Descriptions have the names of prims. The names are changed in the text, where all
 // that refers to a thing has the same words as its name; MuJoCo's text has no other quotes and no
 // bare ">". A path that two kinds of things share (a body that is its own collider) has one new
-// name in both. What follows the dot is left out where there is only one such thing.
+// name in both. The part after the dot is omitted where there is only one such thing.
 //
 // Any attribute of numbers may be rewritten, but not a name that reads as a number.
 #include "tenon/mjcf/text/write_text.h"
