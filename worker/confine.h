@@ -7,7 +7,7 @@
 
 #include "tenon/guard/messages.h"
 
-/// How this process is held to what it may do. What the kernel lacks is left out and told.
+/// Confines this process to what it may do. What the kernel lacks is skipped and reported.
 namespace tenon::worker {
 
 /// Before any file is met: no core dumps, no files written, few files open, an end where memory

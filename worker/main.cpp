@@ -179,7 +179,7 @@ void open_libraries(Reader reader) {
   }
 #if TENON_WITH_MUJOCO
   if (reader != Reader::Mesh) {
-    static_cast<void>(engines::mujoco::open_mujoco());  // who reads says why it was not
+    static_cast<void>(engines::mujoco::open_mujoco());  // a reader reports the failure
   }
 #endif
 }

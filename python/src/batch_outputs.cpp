@@ -170,7 +170,7 @@ nb::list events(Batch& batch, std::size_t i) {
   return rows;
 }
 
-/// The model's text, the images that it names, and what MJCF has no word for.
+/// The model's text, the images that it names, and what MJCF does not support.
 nb::tuple to_mjcf(Batch& batch, std::size_t i, const std::string& folder) {
   check_environment(batch, i);
   Diagnostics found;

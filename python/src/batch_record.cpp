@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single numbers of environments, chosen by whoever asks and read between steps without the
-// interpreter: what a sweep measures of its cases (tenon_usd/sweep/signals.py).
+// Single numbers of environments, chosen by the caller and read between steps without the
+// interpreter: the measurements of a sweep (tenon_usd/sweep/signals.py).
 #include "batch_record.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 using namespace nb::literals;
 
-/// What is asked for, as Python says it: a signal, the number of its object, an axis from 0.
+/// Requested readings, as in Python: a signal, the number of its object, an axis from 0.
 using Readings = std::vector<std::tuple<std::string, std::size_t, std::size_t>>;
 
 /// One environment at one time.
@@ -126,7 +126,7 @@ constexpr std::array kSignals{
            }},
 };
 
-/// A column of what is read.
+/// A column of the readings.
 struct Column {
   const Signal* signal;
   std::size_t object;

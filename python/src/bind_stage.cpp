@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Stages and prims of Python. A prim is a stage and a path that is looked up each time, so that it
-// may be kept for as long as one likes, edits included; what is asked of a prim that is gone
-// raises.
+// may be kept for as long as one likes, edits included; a query of a prim that is gone raises.
 #include <memory>
 #include <optional>
 #include <string>
@@ -419,7 +418,7 @@ void bind_stage_edits(nb::class_<OpenedStage>& stage) {
   stage.def("flatten", &flattened, "path"_a = nb::none(),
             nb::sig("def flatten(self, path: str | os.PathLike[str] | None = None) -> str | None"),
             "The whole scene as one layer without composition: its text, or written to a file "
-            "(.usda, .usdc, .usd, .usdz), which is none of those that were read.");
+            "(.usda, .usdc, .usd, .usdz), not one of those that were read.");
 }
 
 void bind_stage_facts(nb::class_<OpenedStage>& stage) {

@@ -91,10 +91,9 @@ void raise(const Error& error, const Diagnostics& found) {
 }
 
 void bind_diagnostics(nb::module_& module) {
-  nb::class_<Diagnostic> bound(
-      module, "Diagnostic",
-      "One finding about an input: what is wrong, where, and what to do "
-      "about it. Empty strings and zero numbers stand for what is unknown.");
+  nb::class_<Diagnostic> bound(module, "Diagnostic",
+                               "One finding about an input: what is wrong, where, and what to do "
+                               "about it. Empty strings and zero numbers mean unknown.");
   bound.def_prop_ro(
       "severity", [](const Diagnostic& finding) { return severity_name(finding.severity); },
       "\"error\", \"warning\" or \"info\".");

@@ -141,8 +141,8 @@ ConvertFileOptions convert_options(const OpenArguments& arguments, const std::st
   return options;
 }
 
-/// What becomes of an asset that is there already: nothing of this, or it is made anew from its
-/// source and keeps its edits.
+/// What happens to an existing asset: neither of these, or it is converted again from its source
+/// and keeps its edits.
 struct UpdateArguments {
   bool update = false;
   std::string conflicts;  ///< "edits", "source" or "fail"
@@ -193,7 +193,7 @@ Result<void> check_free(const std::string& output, bool folder, bool force) {
                  : structure::check_not_edited(output);
 }
 
-/// A robot in one file, with what stands beside it.
+/// A robot in one file, with the files next to it.
 Result<std::optional<UpdatedAsset>> write_robot_file(ConvertedFile converted,
                                                      const std::string& output, bool force,
                                                      const UpdateArguments& how,
@@ -219,7 +219,7 @@ Result<Json> import_robot(const std::string& input, const std::string& output,
   const bool folder = names_folder(output);
   if (how.update && !folder && output.ends_with(".usdz")) {
     return Error(ErrorCode::Unsupported, "a package cannot be updated")
-        .with_fix("convert into a folder, or give force=True to make the package anew");
+        .with_fix("convert into a folder, or give force=True to replace the package");
   }
   TENON_CHECK(how.update ? Result<void>() : check_free(output, folder, force));
   TENON_TRY(ConvertedFile converted, convert_file(input, options, found));

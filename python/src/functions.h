@@ -6,7 +6,7 @@
 
 namespace tenon::python {
 
-/// What is asked of files: check, diff, compare, convert, structure, engines.
+/// Functions of files: check, diff, compare, convert, structure, engines.
 void bind_functions(nanobind::module_& module);
 
 }  // namespace tenon::python

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whoever looks at a stage holds its lock, so that threads of Python which let each other run while
-// something long is worked out never meet in it. Nobody waits for the lock while he holds the
-// interpreter: the one who has it may need the interpreter to go on. Edits are made by an editor
-// that opens the asset when the first one comes, and that is given up when files are written: what
-// is edited then is read anew.
+// A caller that uses a stage holds its lock, so that threads of Python which let each other run
+// during long computations never meet in it. Nobody waits for the lock while holding the
+// interpreter: the owner of the lock may need the interpreter to go on. Edits are made by an editor
+// that opens the asset when the first one comes, and that is given up when files are written: a
+// later edit reads the files again.
 #include "opened_stage.h"
 
 #include <utility>

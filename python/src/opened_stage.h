@@ -51,8 +51,8 @@ class OpenedStage {
   /// What edits make of the files, and the same written. Errors: those of write_files.
   Result<std::vector<EditedFile>> edited_files() const;
   Result<std::vector<EditedFile>> save();
-  /// How the scene with all edits is opened anew: what edits make of the files lies in memory over
-  /// them. Errors: those of edited_files.
+  /// How the scene with all edits is opened again: edited files are in memory over those on disk.
+  /// Errors: those of edited_files.
   Result<OpenOptions> options_as_edited() const;
 
   const std::string& path() const { return path_; }

@@ -68,7 +68,7 @@ void bind_options(nb::module_& module) {
         files[path] = bytes::FileBytes::own(std::string(contents.c_str(), contents.size()));
         arguments.open.files = arguments.open.files.with(std::move(files));
       },
-      "path"_a, "contents"_a, "Bytes that stand for a file.");
+      "path"_a, "contents"_a, "Bytes in place of a file.");
   bound.def_rw("readings", &OpenArguments::readings,
                "Readings of the physics that differ from the usual ones, by name.");
 }

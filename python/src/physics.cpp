@@ -278,7 +278,7 @@ const std::vector<FieldRow>& rows_of() {
 
 // ---- classes
 
-/// What reads one property; the type of the object is known by the class that it stands in.
+/// Reads one property; the type of the object is that of the enclosing class.
 struct Getter {
   const FieldRow* row;
   nb::handle type;
@@ -300,7 +300,7 @@ void add_property(nb::handle type, const FieldRow& row) {
       nb::module_::import_("builtins").attr("property")(getter, nb::none(), nb::none());
 }
 
-/// What is known of each property: for tables (tenon_usd/tables.py).
+/// The description of each property: for tables (tenon_usd/tables.py).
 nb::dict columns_of(const std::vector<FieldRow>& rows) {
   nb::dict columns;
   for (const FieldRow& row : rows) {
@@ -406,7 +406,7 @@ void bind_list(nb::module_& module) {
       "columns",
       [](const List& self) { return self.rows == nullptr ? nb::dict() : columns_of(*self.rows); },
       nb::sig("def columns(self) -> dict[str, dict[str, Any]]"),
-      "What is known of each property of the objects: {\"type\", \"unit\", \"meaning\", "
+      "The description of each property of the objects: {\"type\", \"unit\", \"meaning\", "
       "\"refers\", \"number\", \"shape\"}.");
   // A table in Python: pandas and Arrow are the user's.
   const auto table = [&list](const char* name, const char* text) {

@@ -115,7 +115,7 @@ nb::object where(OpenedStage& opened, const std::string& object, std::optional<d
 void bind_stage_answers(nb::class_<OpenedStage>& stage) {
   stage.def("physics", &physics_of,
             "What an engine receives of the stage: a PhysicsScene in metres, kilograms, seconds "
-            "and radians, read anew at each call.");
+            "and radians, read again at each call.");
   stage.def("explain", &explain, "object"_a, "other"_a = nb::none(),
             nb::sig("def explain(self, object: str, other: str | None = None) -> dict[str, Any]"),
             "Where numbers come from: of \"/prim\" what it is to engines [SI, rad], of "

@@ -7,7 +7,7 @@
 
 namespace tenon::python {
 
-/// What is asked of a stage: explain, where, masses, physics.
+/// Queries of a stage: explain, where, masses, physics.
 void bind_stage_answers(nanobind::class_<OpenedStage>& stage);
 
 }  // namespace tenon::python

@@ -10,7 +10,7 @@
 /// What the JSON of a scene has beyond the tables. Internal to tenon/answers.
 namespace tenon::answers {
 
-/// A key that follows from fields: written for readers, passed over when read.
+/// A key that follows from fields: written for readers, ignored when read.
 struct DerivedKey {
   std::string_view name;
   std::string_view type;  ///< of JSON Schema

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The rows come from the traces in stage/values, strongest first, and not from a search of their
-// own: "used" says what resolution did. A fallback stands in no file and has no row. Values are put
-// on one line of bounded length, list edits and selections in words.
+// own: "used" says what resolution did. A fallback is in no file and has no row. Values are put on
+// one line of bounded length, list edits and selections in words.
 #include "tenon/answers/opinions.h"
 
 #include <cstddef>

@@ -244,7 +244,7 @@ class Reader {
     const auto& words = value.type->words;
     const auto found = std::find(words.begin(), words.end(), name);
     if (found == words.end()) {
-      fault(at, "is none of its words");
+      fault(at, "is not one of its words");
       return;
     }
     set_integer(value, found - words.begin());
@@ -258,7 +258,7 @@ class Reader {
     }
     const std::string word = json.is_string() ? json.get<std::string>() : std::string();
     if (word != info.on && word != info.off) {
-      fault(at, "is none of its words");
+      fault(at, "is not one of its words");
     }
     value = word == info.on;
   }

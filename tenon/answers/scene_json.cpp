@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One walk over the tables of fields writes every struct, so a new field needs no code here; what
-// is worked out for readers is added behind the fields. A reference is a path where only one object
-// of its list has that path, which is counted beforehand, else an index. Numbers have one form: no
-// negative zero, no negative real part of a quaternion, words for what JSON has no number for. The
-// table also says whether a field with its default is written, is null or is left out
+// One walk over the tables of fields writes every struct, so a new field needs no code here; values
+// computed for readers are added behind the fields. A reference is a path where only one object of
+// its list has that path, which is counted beforehand, else an index. Numbers have one form: no
+// negative zero, no negative real part of a quaternion, words for values that JSON has no number
+// for. The table also says whether a field with its default is written, is null or is omitted
 // (scene::Presence).
 #include "tenon/answers/scene_json.h"
 
@@ -175,7 +175,7 @@ class Writer {
     }
   }
 
-  /// A number that JSON has not, and that null stands for.
+  /// A number that JSON cannot express, written as null.
   static bool is_boundless(DataView value, DataView plain) {
     return value.kind() == DataKind::Real && !std::isfinite(value.as<double>()) &&
            value.as<double>() == plain.as<double>();

@@ -23,7 +23,7 @@ enum class Geometry : std::uint8_t { Hash, Inline };
 std::string scene_json(const scene::PhysicsScene& scene, Geometry geometry);
 
 /// The scene that JSON with inline geometry describes: the one that it was made of. Unknown keys
-/// are passed over; `mimic` counts in JSON of version 1.0, which has no `mimics`. Errors: Parse;
+/// are ignored; `mimic` counts in JSON of version 1.0, which has no `mimics`. Errors: Parse;
 /// Invalid, with the place of a value that cannot be read; Corrupt, where the scene contradicts
 /// itself; Limit, where it is longer than kSceneJson.
 Result<scene::PhysicsScene> read_scene_json(std::string_view json);

@@ -198,7 +198,7 @@ TEST(SceneJson, WhatCannotBeReadIsNamed) {
   EXPECT_FALSE(read_scene_json(std::string(100'000, '[')).has_value());
 }
 
-/// Every key that is written stands in the schema.
+/// Every written key is in the schema.
 void expect_described(const Json& schema, const Json& described, const Json& json,
                       const std::string& at) {
   const Json* form = &described;

@@ -3,9 +3,9 @@
 //
 // The schema is made by walking the types of the fields in the tables that scene_json.cpp writes,
 // case by case in the same way. A struct becomes a definition the first time that it is met and a
-// reference each time; fields that are inlined stand among those of their owner. Each field but an
-// inlined pose may be null, which stands for its default. A struct has no further properties, but
-// for the outermost one, which is part of a larger answer.
+// reference each time; fields that are inlined are among those of their owner. Each field but an
+// inlined pose may be null, which means its default. A struct has no further properties, except the
+// outermost one, which is part of a larger answer.
 #include <set>
 #include <span>
 #include <string>

@@ -4,8 +4,8 @@
 // An attribute is traced twice, at the default time and at another one. A trace is shown every
 // statement about the value, whichever decides, so both list the same opinions in the same order:
 // row i of one is row i of the other, and its two roles make one verdict. A reason names the place
-// of the opinion that decided, which stands in a stronger row. Connections and targets are traced
-// as fields. Composition passes over what is authored below an instance; that is searched for
+// of the opinion that decided, which is in a stronger row. Connections and targets are traced as
+// fields. Composition ignores opinions authored below an instance; they are searched for
 // separately.
 #include "tenon/answers/where_opinions.h"
 
@@ -78,7 +78,7 @@ std::string reason_text(OpinionReason reason, const std::string& by) {
     case OpinionReason::MovedTowards:
       return "part of the value at the next sample";
     case OpinionReason::PutIn:
-      return "what %_ stands for in a stronger expression";
+      return "the value of %_ in a stronger expression";
     case OpinionReason::HidesWeaker:
       return "blocks all that is weaker but the fallback";
     case OpinionReason::BlocksAnimation:

@@ -110,7 +110,7 @@ std::vector<scene::TriangleMesh> pieces_of(const CoacdMeshes& raw) {
 
 #if defined(__SANITIZE_ADDRESS__)
 /// CoACD 1.0.14 never frees the list that it returns, 32 bytes for each piece: its own function
-/// for that frees what stands in the list.
+/// for that frees the contents of the list.
 extern "C" const char* __lsan_default_suppressions() { return "leak:CoACD_run"; }
 #endif
 
@@ -131,7 +131,7 @@ std::vector<scene::TriangleMesh> coacd_pieces(const scene::TriangleMesh& mesh,
   }
   const CoacdMesh raw{points.data(), mesh.points.size(), corners.data(), mesh.triangles.size()};
   try {
-    // The library's own defaults, but for what is asked and the removal of corners beyond it.
+    // The library's own defaults, except the requested settings and the removal of excess corners.
     const CoacdMeshes found =
         library().run(&raw, how.concavity, how.most, 0, 50, 2000, 20, 150, 3, false, true, true,
                       how.vertices, false, 0.01, 0, 0, false);

@@ -31,9 +31,9 @@ std::optional<std::string> encoded_triangles(const std::vector<std::uint32_t>& c
 std::optional<std::vector<std::uint32_t>> put_in_order(std::vector<std::uint32_t>& corners,
                                                        std::size_t point_count);
 
-/// The triangles that are left when a mesh is thinned out to about `wanted` triangles: edges
-/// collapse by quadric errors (Garland and Heckbert 1997) up to a tenth of the mesh's size. Corners
-/// still name the same points.
+/// The triangles of a mesh simplified to about `wanted` triangles: edges collapse by quadric errors
+/// (Garland and Heckbert 1997) up to a tenth of the mesh's size. Corners still name the same
+/// points.
 std::optional<std::vector<std::uint32_t>> thinned_out(const std::vector<std::uint32_t>& corners,
                                                       const std::vector<Vec3f>& points,
                                                       std::size_t wanted);

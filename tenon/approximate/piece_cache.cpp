@@ -43,7 +43,7 @@ void put_mesh(const scene::TriangleMesh& mesh, std::string& bytes) {
   }
 }
 
-/// Reads from the front of `bytes`; all counts are checked against what is left.
+/// Reads from the front of `bytes`; all counts are checked against the remaining bytes.
 struct Reader {
   std::string_view bytes;
   bool failed = false;
@@ -80,7 +80,7 @@ struct Reader {
   }
 };
 
-/// FNV-1a of the key, as a file name; the key itself stands in the file.
+/// FNV-1a of the key, as a file name; the key itself is stored in the file.
 std::string name_of(const std::string& key) {
   std::uint64_t hash = 0xCBF29CE484222325ull;
   for (const char c : key) {

@@ -7,8 +7,8 @@
 
 namespace tenon {
 
-/// A file that is to be written: what is made of assets is a value until the caller writes all of
-/// it together (docs/outputs.md).
+/// A file to write: what is made of assets is a value until the caller writes all of it together
+/// (docs/outputs.md).
 struct MadeFile {
   std::string path;  ///< "-" is standard output
   std::string contents;

@@ -20,8 +20,8 @@ class BodyTransforms {
  public:
   BodyTransforms(const stage::Stage& stage, const scene::PhysicsScene& scene);
 
-  /// Local transform of body `i` so that all bodies stand at the poses of `frame`; stage units.
-  /// `code` is the stage time of the frame, for what else is animated.
+  /// Local transform of body `i` that places all bodies at the poses of `frame`; stage units.
+  /// `code` is the stage time of the frame, for other animated prims.
   Mat4d local(std::size_t i, const PoseRecording& recording, std::size_t frame, double code) const;
 
   /// World matrix of a body's prim, and of any prim, at the poses of `frame`; stage units.

@@ -13,8 +13,8 @@ namespace tenon::bake {
 
 /// Writes the motion of bodies that are instances of point instancers to the arrays of these:
 /// samples of positions and orientationsf, scales left alone; velocities, which would move the
-/// positions between samples, are blocked (S-38). What arrays cannot hold is left out with a
-/// warning (bake.instanced-body): several bodies in one instance, instancers inside instances.
+/// positions between samples, are blocked (S-38). What arrays cannot hold is skipped with a warning
+/// (bake.instanced-body): several bodies in one instance, instancers inside instances.
 void write_instance_arrays(const stage::Stage& stage, const scene::PhysicsScene& scene,
                            const PoseRecording& recording, const BodyTransforms& transforms,
                            layer::Layer& layer, Diagnostics& diagnostics);

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxDimensions = 2;
 
 Error broken(const char* what) { return {ErrorCode::Parse, what}; }
 
-/// What stands behind "'key':" up to `end`, without spaces in front.
+/// The value after "'key':" up to `end`, without leading spaces.
 std::optional<std::string_view> entry(std::string_view header, std::string_view key,
                                       std::string_view end) {
   const std::size_t at = header.find("'" + std::string(key) + "':");

@@ -3,7 +3,7 @@
 //
 // Ops are kept where they are translate, one rotation and scale, in this order and each at most
 // once: then local = scale * rotation * translation with row vectors, and with the scale constant
-// every rigid motion fits. If what is left without the scale is no rotation to 1e-6, the caller
+// every rigid motion fits. If the matrix without the scale is not a rotation to 1e-6, the caller
 // starts over with one matrix op, which holds anything. A rotation is kept as a quaternion, in the
 // sign nearer to the one before so that interpolation takes the short way, and as angles that
 // continue the last ones. The angles are given up for good when one sample does not fit them; the

@@ -12,9 +12,9 @@
 
 namespace tenon::bake {
 
-/// How a prim's local transform is to be written over time: on the translate, orient or rotate ops
-/// that it has (or on translate and orient ops that it gets), with its scale op left alone; or,
-/// where scale or shear do not allow that, as one matrix op (S-35).
+/// How a prim's local transform is written over time: on the translate, orient or rotate ops that
+/// it has (or on translate and orient ops that it gets), with its scale op left alone; or, where
+/// scale or shear do not allow that, as one matrix op (S-35).
 class OpStack {
  public:
   /// Looks at the prim's xformOpOrder. `start_code` is the stage time at which its scale is read.

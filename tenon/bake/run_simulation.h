@@ -38,7 +38,7 @@ struct Run {
 };
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two
-/// steps is interpolated (linear, slerp); the first and the last are exact states. Frames stand at
+/// steps is interpolated (linear, slerp); the first and the last are exact states. Frames are at
 /// multiples of the frame time, also where the simulation does not begin at 0, so that a run that
 /// is continued has the frames of one that never ended. Outputs that are on are recorded too.
 Run run_simulation(engines::Simulation& simulation, const scene::PhysicsScene& scene,

@@ -12,11 +12,11 @@ namespace tenon::bake {
 
 /// One row per frame: time [s], then per body position, orientation (w, x, y, z), linear and
 /// angular velocity, then per joint its coordinates and their velocities; stage units and degrees.
-/// Columns are named PATH.position.x and so on. Outputs follow, but for contacts.
+/// Columns are named PATH.position.x and so on. Outputs follow, except contacts.
 std::string csv_log(const scene::PhysicsScene& scene, const StateRecording& recording);
 
 /// One JSON object per line: {"time", "bodies": {PATH: {...}}, "joints": {PATH: {...}}}, named as
-/// in the end state of `sim --json`; outputs stand in their objects, "energy" and "work" beside
+/// in the end state of `sim --json`; outputs are in their objects, "energy" and "work" beside
 /// "bodies", "contacts" as a list.
 std::string jsonl_log(const scene::PhysicsScene& scene, const StateRecording& recording);
 

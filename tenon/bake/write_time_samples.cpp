@@ -17,7 +17,7 @@ double code_of(const scene::PhysicsScene& scene, double seconds) {
   return scene.start_time_code + seconds * scene.time_codes_per_second;
 }
 
-/// A value of another type, which a crate can hold, is left out: it says nothing to a reader.
+/// A value of another type, which a crate can hold, is skipped: it means nothing to a reader.
 void copy_metadata(const stage::Stage& stage, Token name, layer::Spec& root) {
   if (stage.has_authored_metadata(name)) {
     const Value value = stage.metadata(name);

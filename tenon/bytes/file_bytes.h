@@ -19,7 +19,7 @@ struct FileRules {
   /// Asked about the file that is open, by its path without symbolic links, before it is read.
   Function<Result<void>(const std::string& real_path)> check;
   bool may_map = true;  ///< false: large files are read, too
-  /// False for what is looked at because it is to be replaced: it is noted in no ReadRecord.
+  /// False for a file that is read only to be replaced: it is noted in no ReadRecord.
   bool is_input = true;
   std::uint64_t max_bytes = UINT64_MAX;  ///< of the file; for more ErrorCode::Limit
 };

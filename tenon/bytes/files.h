@@ -81,8 +81,8 @@ class Files {
 /// Errors: those of `list`.
 Result<std::vector<std::string>> files_below(const Files& files, const std::string& folder);
 
-/// Unsupported "file.not-on-disk" for a file that is to be read by another process and that this
-/// would not find.
+/// Unsupported "file.not-on-disk" for a file to be read by another process that this would not
+/// find.
 Result<void> check_on_disk(const Files& files, const std::string& path);
 
 /// The absolute form of a path, "." and ".." removed, links kept.

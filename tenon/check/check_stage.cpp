@@ -4,7 +4,7 @@
 // Findings of opening, composing and reading come first, and the rules see them, so that a rule can
 // keep silent where its subject is reported already. One opinion may show in many instances: of
 // equal findings at one place in a file the first stays. Runs of several variants are merged by
-// prim and not by line, since the strongest opinion may stand in another layer in each. Findings of
+// prim and not by line, since the strongest opinion may be in another layer in each. Findings of
 // some rules count only where all variants give them.
 #include "tenon/check/check_stage.h"
 
@@ -37,8 +37,8 @@ auto place_key(const Diagnostic& d) {
                     d.property, d.message);
 }
 
-/// What makes findings of two variants one: the same is wrong with the same prim. Its strongest
-/// opinion may stand in another layer in each.
+/// What makes findings of two variants one: the same fault of the same prim. Its strongest opinion
+/// may be in another layer in each.
 auto prim_key(const Diagnostic& d) {
   return std::tuple(d.rule, d.prim, d.property, d.message, d.prim.empty() ? d.file : std::string(),
                     d.prim.empty() ? d.line : 0);

@@ -28,8 +28,7 @@ constexpr double kDepth = 0.1;
 /// Pairs that are told apart shape by shape, and those that are reported; a heap of bodies in one
 /// place has millions.
 constexpr std::size_t kMaxPairs = 200000;
-constexpr std::size_t kMaxSteps =
-    50000000;  // of the sweep, where most shapes lie beside each other
+constexpr std::size_t kMaxSteps = 50000000;  // of the sweep, where most shapes are side by side
 constexpr std::size_t kMaxReports = 100;
 
 Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {

@@ -4,7 +4,7 @@
 // Absurd gains are judged as the file has them, opinion by opinion, in the file's unit. All else is
 // judged on the drives of the scene in SI, where limits and mimics are known too, and messages turn
 // the numbers back into units of the asset. A drive without stiffness and damping exerts no force,
-// so most rules pass over it.
+// so most rules skip it.
 #include <algorithm>
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A fix is a list of edits of single fields. A value is edited where its strongest opinion stands,
-// so that the composed value changes, and an API is taken out of every list that adds it. There is
-// no fix where it would have to guess, where the value is animated, or where the opinion stands in
-// memory or in a package: those are not written to.
+// A fix is a list of edits of single fields. A value is edited at its strongest opinion, so that
+// the composed value changes, and an API is removed from every list that adds it. There is no fix
+// where it would have to guess, where the value is animated, or where the opinion is in memory or
+// in a package: those are not written to.
 #include "tenon/check/fixes.h"
 
 #include <algorithm>

@@ -95,7 +95,7 @@ void check_crossed_limits(const Subject& subject, Reporter& report) {
       report.at(prim, kLower,
                 "the lower limit " + digits(limits.lower) + " exceeds the upper limit " +
                     digits(limits.upper) + ": the joint is locked",
-                "swap the limits, or use a PhysicsFixedJoint if the joint is to be locked");
+                "swap the limits, or use a PhysicsFixedJoint to lock the joint");
     }
   }
 }

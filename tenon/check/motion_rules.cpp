@@ -140,7 +140,7 @@ std::vector<Floor> floors_of(const scene::PhysicsScene& scene) {
   return floors;
 }
 
-/// The floor lies below the box, and their outlines from above meet.
+/// The floor is below the box, and their outlines from above meet.
 bool lies_below(const Floor& floor, const Vec3d& low, const Vec3d& high, const Down& down) {
   const scene::Collider& collider = *floor.collider;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -170,7 +170,7 @@ std::pair<Vec3d, Vec3d> body_bounds(const Subject& subject, Index body) {
   return bounds;
 }
 
-/// The floor of another scene that lies below a body where its own scene has none.
+/// The floor of another scene below a body whose own scene has none.
 const scene::Collider* floor_elsewhere(const Subject& subject, const std::vector<Floor>& floors,
                                        Index body) {
   const Body& falling = subject.scene.bodies[body];
@@ -253,7 +253,7 @@ void check_floor_elsewhere(const Subject& subject, Reporter& report) {
         body.kinematic || forest.bodies[i].fixed ? nullptr : floor_elsewhere(subject, floors, i);
     if (floor != nullptr) {
       report.at(subject.stage.prim(body.path),
-                "<" + floor->path.str() + "> lies below the body but belongs to the scene <" +
+                "<" + floor->path.str() + "> is below the body but belongs to the scene <" +
                     subject.scene.scenes[floor->scene].path.str() + ">, the body to <" +
                     subject.scene.scenes[body.scene].path.str() + ">: it falls through",
                 "author the same physics:simulationOwner on both");

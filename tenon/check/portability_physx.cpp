@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What PhysX does otherwise than the schema, and the readings here, have it. Each rule was found by
-// running its scene (tests/check/scenes) in PhysX, version 0.7 of the ovphysx package, on the CPU;
-// the pages say what it did. A rule speaks only where the outcome differs on the asset at hand, and
-// names the size of the difference where the scene gives it.
+// Where PhysX differs from the schema and the readings here. Each rule was found by running its
+// scene (tests/check/scenes) in PhysX, version 0.7 of the ovphysx package, on the CPU; the pages
+// say what it did. A rule reports only where the outcome differs on the asset at hand, and names
+// the size of the difference where the scene gives it.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -68,7 +68,7 @@ Vec3d world_axis(const scene::PhysicsScene& scene, const Joint& joint, Vec3d& po
   return rotate(frame.orientation, axis);
 }
 
-/// Between the frames of a joint as they stand at the start [m].
+/// Between the frames of a joint at the start [m].
 double anchor_distance(const scene::PhysicsScene& scene, const Joint& joint) {
   const auto anchor = [&](const std::optional<Index>& body, const Pose& frame) {
     return body ? transform_point(scene.bodies[*body].pose, frame.position) : frame.position;

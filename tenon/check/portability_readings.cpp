@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values that PhysX and Newton read otherwise than the schema: velocities, gravity, materials,
+// Values that PhysX and Newton read differently from the schema: velocities, gravity, materials,
 // filters, shapes. Each rule was found by running its scene (tests/check/scenes) in ovphysx 0.7 or
 // Newton 1.8 on the CPU; tests/engines_beside runs such scenes again.
 #include <algorithm>
@@ -269,7 +269,7 @@ void check_physx_mass_between(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     if (subject.has_finding("mass.between", prim.path().str())) {
       report.at(prim,
-                "PhysX passes over a PhysicsMassAPI between a body and its colliders, which counts "
+                "PhysX ignores a PhysicsMassAPI between a body and its colliders, which counts "
                 "here",
                 "apply it to the body or to the colliders");
     }

@@ -183,7 +183,7 @@ void check_unknown_attribute(const Subject& subject, Reporter& report) {
   }
 }
 
-// S-3: OpenUSD passes over attributes where the schema has a relationship.
+// S-3: OpenUSD ignores attributes where the schema has a relationship.
 void check_property_kind(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     for (const Token name : prim.unordered_property_names()) {

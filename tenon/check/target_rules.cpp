@@ -44,7 +44,7 @@ bool has_no_place(const stage::Prim& prim) {
          prim.type_name() != "Scope";
 }
 
-/// Some collider, enabled or not, lies at or below the path, or belongs to what it stands for.
+/// Some collider, enabled or not, is at or below the path, or belongs to the object it means.
 bool stands_for_colliders(const Subject& subject, Path path) {
   const auto& colliders = subject.scene.colliders;
   const auto at = std::lower_bound(
@@ -101,7 +101,7 @@ bool is_drawn_for(std::string_view purpose, const stage::Prim& material) {
 
 }  // namespace
 
-// S-86: what is no body stands for the world at its place.
+// S-86: a prim that is not a body means the world at its place.
 void check_joint_sides(const Subject& subject, Reporter& report) {
   for (const auto& [path, place] : places_without_body(subject)) {
     const stage::Prim prim = subject.stage.prim(path);

@@ -14,7 +14,7 @@
 /// Internal to this folder.
 namespace tenon::describe {
 
-/// The format that is to be written: what it has words for.
+/// The target format, and what it supports.
 enum class Format : std::uint8_t { Urdf, Mjcf };
 
 /// A prim's matrix to metres in the world as a rigid pose and the remaining factor.

@@ -22,10 +22,10 @@ namespace tenon::edit {
 /// Where edits of a stage go: one layer, and how paths and times of the stage are written there.
 struct EditTarget {
   std::string layer;  ///< identifier
-  /// From the layer's namespace and time to the stage's; variant selections stand in its sources.
+  /// From the layer's namespace and time to the stage's; its sources contain variant selections.
   compose::MapFunction map = compose::MapFunction::identity();
 
-  /// Where opinions on something of the stage stand in the layer; empty when it has no place there.
+  /// The path in the layer of opinions on an object of the stage; empty when it has no place there.
   Path spec_path(Path scene_path) const;
   /// The same for what targets and arcs name: without variant selections.
   Path target_path(Path scene_path) const;
@@ -39,7 +39,7 @@ struct EditTarget {
 EditTarget layer_target(const compose::LayerStack& stack, const std::string& layer);
 /// The inside of a variant, `/Prim{set=variant}`, of a layer.
 EditTarget variant_target(std::string layer, Path variant_path);
-/// A layer of the stack of a node, which may lie behind arcs.
+/// A layer of the stack of a node, which may be across arcs.
 EditTarget node_target(const compose::PrimIndex& index, std::uint32_t node,
                        const std::string& layer);
 

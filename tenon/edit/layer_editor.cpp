@@ -4,8 +4,8 @@
 // Before a spec changes for the first time its state is kept. Compared with the layer at the end
 // this gives the change, without specs that are as they were, and its inverse takes everything
 // back. Creating, removing and moving change a spec and its name in its parent's list
-// (primChildren, properties, sets and variants) together. The latter two go over the whole subtree,
-// found in one pass over all specs.
+// (primChildren, properties, sets and variants) together. The latter two change the whole subtree,
+// found in one scan of all specs.
 #include "tenon/edit/layer_editor.h"
 
 #include <algorithm>

@@ -31,7 +31,7 @@ class LayerEditor {
     const layer::Spec* spec = layer_->find(path);
     return spec == nullptr ? fallback : spec->get_or(field, std::move(fallback));
   }
-  /// What was done since the editor was made or asked last; specs that are as they were left out.
+  /// The change since the editor was made or this was last called, without unchanged specs.
   LayerChange take_change();
   /// Takes back what was done since then, and says what that changed.
   LayerChange roll_back();

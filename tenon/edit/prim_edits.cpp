@@ -114,7 +114,7 @@ Result<void> StageEditor::edit_prim(Path prim,
   });
 }
 
-/// One prim of the way to a prim that is to be defined.
+/// One ancestor of a prim to define.
 Result<void> StageEditor::define_step(Path prim, Token type_name) {
   const FoundPrim found = view().prim(prim);
   if (found && found.defined &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Layers, edit target and composition; the edits themselves stand in *_edits.cpp, the history in
+// Layers, edit target and composition; the edits themselves are in *_edits.cpp, the history in
 // edited_layers.cpp. There are two looks at the composed scene. `view()` composes the prims that an
 // edit asks for and no others; it looks at the edited layers where they are, and serves until prims
 // may be composed otherwise, so that many values can be set in a row. `stage()` composes everything

@@ -46,7 +46,7 @@ class StageEditor {
   static StageEditor over(layer::LayerPtr root, layer::LayerPtr session,
                           compose::LayerOpener opener, stage::StageOptions options = {});
   /// The same layers under another session layer (may be null), for example one that selects
-  /// another variant: edits through either are seen by both and stand in one history.
+  /// another variant: edits through either are seen by both and share one history.
   StageEditor under_session(layer::LayerPtr session) const;
   StageEditor(StageEditor&&) noexcept;
   StageEditor& operator=(StageEditor&&) noexcept;

@@ -73,7 +73,7 @@ std::optional<std::vector<Input>> read_inputs(std::string_view bytes);
 Result<std::string> save_run(const StateOwner& owner, const SimulationOptions& options,
                              std::uint64_t steps, const InputLog& log);
 
-/// A run that is to be made again.
+/// A run to repeat.
 struct RunToRepeat {
   std::uint64_t steps = 0;
   std::vector<Input> inputs;

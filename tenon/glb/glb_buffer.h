@@ -22,7 +22,7 @@ struct Elements {
   Component component = Component::Float;
   const char* type = "VEC3";  ///< "SCALAR", "VEC2", "VEC3", "VEC4"
   std::size_t stride = 12;    ///< bytes from one to the next, a multiple of 4
-  bool normalized = false;    ///< integers stand for 0 to 1 or -1 to 1
+  bool normalized = false;    ///< integers represent 0 to 1 or -1 to 1
   bool of_vertices = true;    ///< else of animations
   GltfJson least{};           ///< of positions and times
   GltfJson most{};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points that lie in one place are one while a mesh is thinned out, whatever their normals: else
-// every crease would stay. Normals are made anew then. Meshes with images or colours keep their
-// points, because those say more than their place.
+// Points in one place are merged while a mesh is simplified, whatever their normals: else every
+// crease would stay. Normals are then recomputed. Meshes with images or colours keep their points,
+// because those say more than their place.
 #include "tenon/glb/simplify_view.h"
 
 #include <algorithm>

@@ -44,7 +44,7 @@ struct Task {
   Allowance allowance;
 };
 
-/// How a worker is held: what the kernel has of what is asked for.
+/// How a worker is confined: which of the requested limits the kernel provides.
 struct Confinement {
   bool memory = false;        ///< address space is bounded; else by watching (sanitizers)
   std::int32_t landlock = 0;  ///< version in force, 0: none

@@ -8,8 +8,8 @@
 
 namespace tenon::guard {
 
-/// Where the program tenon-worker lies, for a process that does not stand beside it (a library in
-/// an interpreter). To be called before any file is read; an empty path undoes it.
+/// The path of the program tenon-worker, for a process that is not in its folder (a library in an
+/// interpreter). To be called before any file is read; an empty path undoes it.
 void set_worker_program(std::string path);
 
 /// The worker's program: as set; else the environment variable TENON_WORKER; else as it is built

@@ -65,7 +65,7 @@ Error broken(const std::string& file, const std::string& how) {
                                        how + "); it ran in a process of its own, tenon-worker")
       .in_file(file)
       .with_rule("guard.crashed")
-      .with_fix("export the file again; it is damaged or made to do harm");
+      .with_fix("export the file again; it is damaged or malicious");
 }
 
 /// What the end of a worker says.

@@ -12,9 +12,9 @@
 #include "tenon/base/wire.h"
 #include "tenon/guard/messages.h"
 
-/// Files of strangers in formats that libraries of others read are read by another process, the
-/// program tenon-worker, which is held to what docs/limits.md says. Whatever happens to it, the
-/// process that asks gets a value that it can check, or an Error.
+/// Untrusted files in formats that third-party libraries read are read by another process, the
+/// program tenon-worker, within the limits of docs/limits.md. Whatever happens to it, the calling
+/// process gets a value that it can check, or an Error.
 namespace tenon::guard {
 
 class ReplyBuffer;

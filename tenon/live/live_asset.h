@@ -51,7 +51,7 @@ struct LiveAsset {
 /// Errors: those of open_stage, and of the picture.
 Result<LiveAsset> open_live_asset(const LiveAssetOptions& options);
 
-/// A model of another engine, or the same one anew; what there was goes, even where none comes.
+/// A model of another engine, or of the same one again; the old model goes, even where this fails.
 void make_live_world(const LiveAssetOptions& options, const std::string& engine, LiveAsset& asset);
 
 /// What `joints` of the notice `scene` has (messages.h).

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Nothing of a message is used before its type is known, so that no text of strangers reaches what
-// would end the program: fields that the table does not have are refused, and with them everything
-// that could be deep.
+// Nothing of a message is used before its type is known, so that no untrusted text reaches code
+// that would end the program: fields that the table does not have are refused, and with them
+// everything that could be deep.
 #include "tenon/live/messages.h"
 
 #include <algorithm>
@@ -135,28 +135,28 @@ struct TypeRule {
 TypeRule rule_of_type(FieldType type) {
   switch (type) {
     case FieldType::Text:
-      return {"is to be a text", is_text};
+      return {"must be a string", is_text};
     case FieldType::Path:
-      return {"is to be the absolute path of a prim", is_prim_path};
+      return {"must be the absolute path of a prim", is_prim_path};
     case FieldType::Number:
-      return {"is to be a finite number", is_number};
+      return {"must be a finite number", is_number};
     case FieldType::Integer:
-      return {"is to be a whole number from 0 to 1000000", [](const Json& value) {
+      return {"must be a whole number from 0 to 1000000", [](const Json& value) {
                 return value.is_number_unsigned() && value.get<std::uint64_t>() <= kLargestInteger;
               }};
     case FieldType::Flag:
-      return {"is to be true or false", [](const Json& value) { return value.is_boolean(); }};
+      return {"must be true or false", [](const Json& value) { return value.is_boolean(); }};
     case FieldType::Point:
-      return {"is to be three finite numbers",
+      return {"must be three finite numbers",
               [](const Json& value) { return are_numbers(value) && value.size() == 3; }};
     case FieldType::Numbers:
-      return {"is to be a list of at most 64 finite numbers", are_numbers};
+      return {"must be a list of at most 64 finite numbers", are_numbers};
     case FieldType::Object:
     case FieldType::List:
     case FieldType::Any:
       break;
   }
-  return {"is none of a request", [](const Json&) { return false; }};
+  return {"is not a type of requests", [](const Json&) { return false; }};
 }
 
 Result<void> check_fields(const MessageInfo& info, const Json& message) {
@@ -287,7 +287,7 @@ Result<std::size_t> Listener::read(std::string_view text, Asked& asked) const {
   asked.fields_ = answers::parsed(text);
   const Json& message = asked.fields_;
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
-    return Error(ErrorCode::Parse, "a message is to be a JSON object with `do`, the request's name")
+    return Error(ErrorCode::Parse, "a message must be a JSON object with `do`, the request's name")
         .with_rule("live.bad-message");
   }
   if (message.contains("id") && (message["id"].is_number() || message["id"].is_string())) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a page and a live session say to each other, as tables: what is read is held against them,
-// their JSON Schema is made of them, and docs/viewer.md and the tests walk them. Every message is a
-// JSON object. Numbers are SI and radians, world axes; values of properties are text as layers
-// print it.
+// What a page and a live session say to each other, as tables: messages read are checked against
+// them, their JSON Schema is made of them, and docs/viewer.md and the tests walk them. Every
+// message is a JSON object. Numbers are SI and radians, world axes; values of properties are text
+// as layers print it.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ enum class FieldType : std::uint8_t {
 struct Field {
   std::string_view name;
   FieldType type = FieldType::Text;
-  bool required = true;  ///< else it may be left out, or be null
+  bool required = true;  ///< else it may be missing or null
   std::string_view meaning;
 };
 

@@ -17,7 +17,7 @@ std::optional<std::size_t> coordinate_of_dof(const scene::JointDofs& dofs, scene
   return std::nullopt;
 }
 
-/// Where a mimic has its coordinate when its leader stands at `x`: offset + multiplier x + ...
+/// A mimic's coordinate when its leader is at `x`: offset + multiplier x + ...
 double followed_position(const scene::Mimic& mimic, double x) {
   double power = x;
   double sum = mimic.offset + mimic.multiplier * x;

@@ -19,7 +19,7 @@ struct Pull {
   scene::Index body = 0;
   Vec3d anchor;  ///< in the body frame [m]
   bool to_target = false;
-  Vec3d force;   ///< world axes [N]; of springs worked out at every step
+  Vec3d force;   ///< world axes [N]; of springs computed at every step
   Vec3d target;  ///< of springs, world [m]
 };
 

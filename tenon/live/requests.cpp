@@ -73,7 +73,7 @@ Result<Json> reset(State& state, ClientNumber, const Asked&, Outbox& out) {
 Result<Json> set_speed(State& state, ClientNumber, const Asked& asked, Outbox& out) {
   const double speed = asked.number("factor", 1);
   if (speed < kLeastSpeed || speed > kMostSpeed) {
-    return refused("the speed is to be from 0.001 to 100", "give another factor");
+    return refused("the speed must be from 0.001 to 100", "give another factor");
   }
   state.speed = speed;
   return new_state(state, out);
@@ -206,13 +206,13 @@ Result<Json> tell_messages(State&, ClientNumber, const Asked&, Outbox&) {
 
 constexpr std::array<Field, 0> kNoFields{};
 constexpr std::array kStepFields{
-    Field{"count", FieldType::Integer, false, "how many, at most 1,000; 1 when left out"}};
+    Field{"count", FieldType::Integer, false, "how many, at most 1,000; default 1"}};
 constexpr std::array kSpeedFields{Field{"factor", kNumberField, true, "1 is real time"}};
 constexpr std::array kDriveFields{
     Field{"joint", kPathField, true, "the joint's prim"},
-    Field{"drive", FieldType::Integer, false, "which of its drives, 0 when left out"},
-    Field{"position", kNumberField, false, "[rad, m]; stays when left out"},
-    Field{"velocity", kNumberField, false, "[rad/s, m/s]; stays when left out"}};
+    Field{"drive", FieldType::Integer, false, "which of its drives, default 0"},
+    Field{"position", kNumberField, false, "[rad, m]; default: unchanged"},
+    Field{"velocity", kNumberField, false, "[rad/s, m/s]; default: unchanged"}};
 constexpr std::array kJointFields{
     Field{"joint", kPathField, true, "the joint's prim"},
     Field{"position", FieldType::Numbers, true, "of each of its degrees of freedom [rad, m]"}};
@@ -250,7 +250,7 @@ constexpr std::array kRequests{
         {"reset", kNoFields, "Back to the start; drive targets are the asset's again", "nothing"},
         reset},
     Request{{"speed", kSpeedFields, "How fast time is to go on", "nothing"}, set_speed},
-    Request{{"setDrive", kDriveFields, "What a drive is to reach, until it is set anew or reset",
+    Request{{"setDrive", kDriveFields, "Sets a drive's target, until it is set again or reset",
              "{`position`, `velocity`}"},
             set_drive},
     Request{{"setJoint", kJointFields,
@@ -259,7 +259,7 @@ constexpr std::array kRequests{
             set_joint},
     Request{
         {"force", kForceFields,
-         "A force on a body until it is set anew or released; one pull for each page", "nothing"},
+         "A force on a body until it is set again or released; one pull for each page", "nothing"},
         push},
     Request{{"drag", kDragFields,
              "A spring between a point of a body and a point in the world, for pulling by mouse",

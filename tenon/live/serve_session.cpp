@@ -134,7 +134,7 @@ class LateAnswers {
   bool ended_ = false;
 };
 
-/// Hands over what is to be made later; who asks for too much at once is refused.
+/// Hands over late answers; a client with too many requests at once is refused.
 void hand_over(LateAnswers& answers, const Session& session, Outbox& out) {
   for (LateAnswer& late : std::exchange(out.late, {})) {
     if (!answers.put(late)) {

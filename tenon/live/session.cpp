@@ -80,7 +80,7 @@ bool Session::State::Timer::due(double seconds) {
   return true;
 }
 
-// ---- what is told
+// ---- messages to pages
 
 void Session::State::tell(ClientNumber to, const Json& message, Outbox& out) const {
   out.messages.push_back({to, answers::on_one_line(message)});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A live session as a machine of values: messages and passed time go in, messages, pose frames and
-// pictures come out. It knows no sockets and no threads; who holds it calls it from one thread.
+// pictures come out. It knows no sockets and no threads; its owner calls it from one thread.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace tenon::live {
 using ClientNumber = std::uint64_t;
 
 /// The answer to a request that takes long. `make` touches nothing of the session, so another
-/// thread may call it; what comes of it goes to Session::answer_late().
+/// thread may call it; its result goes to Session::answer_late().
 struct LateAnswer {
   ClientNumber client = 0;
   std::string request;
@@ -41,7 +41,7 @@ struct Outbox {
   };
   std::vector<Message> messages;
   std::optional<std::string> frame;              ///< to everyone, pose_frame()
-  std::vector<LateAnswer> late;                  ///< for who holds the session to make
+  std::vector<LateAnswer> late;                  ///< for the owner of the session to make
   std::shared_ptr<const std::string> picture{};  ///< not null: there is another one, for everyone
 };
 
@@ -67,12 +67,12 @@ class Session {
 
   void greet(ClientNumber client, Outbox& out);
   void hear(ClientNumber client, std::string_view text, Outbox& out);
-  /// Tells who has asked what came of LateAnswer::make.
+  /// Sends the result of LateAnswer::make to the client that asked.
   void answer_late(const LateAnswer& late, Result<Json> result, Outbox& out) const;
   /// What the client pulled is let go.
   void forget(ClientNumber client);
-  /// `seconds` have passed since the last call. Takes no longer than some 30 ms; what cannot be
-  /// simulated in that is left out, and the rate of `state` tells it.
+  /// `seconds` have passed since the last call. Takes no longer than some 30 ms; time that cannot
+  /// be simulated in that is skipped, and the rate of `state` tells it.
   void advance(double seconds, Outbox& out);
   /// Opens the asset again where a file that it was read from has changed. One that does not open
   /// any more is told, and what was there stays.

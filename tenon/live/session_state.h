@@ -53,9 +53,9 @@ class Session::State {
 
   // ---- what requests do
 
-  /// Opens the asset anew with `changed` options; where that fails everything stays as it is.
+  /// Opens the asset again with `changed` options; where that fails everything stays as it is.
   Result<void> reopen(LiveAssetOptions changed, const char* why, Outbox& out);
-  /// A model anew of the asset as it is.
+  /// Rebuilds the model of the asset as it is.
   void restart(const std::string& engine, const char* why, Outbox& out);
   /// Tells everyone that the model begins at its start.
   void begin_again(const char* why, Outbox& out);
@@ -66,7 +66,7 @@ class Session::State {
   /// One step, with what pulls; an unstable one stops the time.
   Result<void> step(Outbox& out);
 
-  // ---- what is told
+  // ---- messages to pages
 
   Json scene_notice(const char* why) const;
   Json state_notice() const;

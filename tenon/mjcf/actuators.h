@@ -20,7 +20,7 @@ struct JointDrive {
   double effort_limit = robot::kUnlimited;  ///< [N m or N]
   double effort_of_control = 0;             ///< that one unit of its control makes [N m or N]
 
-  /// What is to be asked of the drive for the effort that `control` makes.
+  /// The drive's target for the effort that `control` makes.
   double asked_for(double control) const;
 };
 

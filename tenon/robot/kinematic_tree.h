@@ -26,7 +26,7 @@ Result<KinematicTree> kinematic_tree(const RobotModel& model);
 
 /// Faults of a model whose tree is sound that can be fixed: numbers that are not finite, masses and
 /// inertias that no body can have, zero axes, mimics in a cycle or of unfit joints, limits upside
-/// down. Each finding goes to `diagnostics`, and what it names is made harmless: left out or
+/// down. Each finding goes to `diagnostics`, and what it names is made harmless: skipped or
 /// unlimited, as its message says.
 void sanitize_model(RobotModel& model, Diagnostics& diagnostics);
 

@@ -148,8 +148,8 @@ class FileChecker {
     }
   }
 
-  /// What a prim that the file defines, or one below it, says of itself: what is written on a
-  /// scene, a joint, a material. Neutral physics does nothing on materials, which may keep it.
+  /// Whether a prim that the file defines, or one below it, is described by an opinion on a scene,
+  /// a joint or a material. Neutral physics does nothing on materials, which may keep it.
   bool is_at_home(const Layer& layer, Role role, Path prim, Role owner) const {
     if (owner == Role::Physics) {
       return known_type(layer, prim) == "Material" &&
@@ -248,7 +248,7 @@ class FileChecker {
     }
   }
 
-  /// A payload or reference composes the default prim; what stands beside it is lost.
+  /// A payload or reference composes the default prim; other root prims are lost.
   void check_roots(const Layer& layer, Role role) {
     const bool by_default_prim = role == Role::Physics || is_engine(role);
     for (const Path& prim : child_prims(layer, Path::absolute_root())) {
@@ -256,7 +256,7 @@ class FileChecker {
         const bool scene = type_of(layer, prim) == "PhysicsScene";
         add(Severity::Error, "structure.scene-not-composed", layer, prim,
             (scene ? std::string("the PhysicsScene") : "<" + prim.str() + ">") +
-                " stands beside the default prim: no arc composes it",
+                " is outside the default prim: no arc composes it",
             "move it below <" +
                 Path::absolute_root().child(files_.interface->default_prim()).str() + ">");
       }

@@ -19,9 +19,9 @@ struct AssetFiles {
   Function<bool(const std::string& identifier)> exists;
 };
 
-/// Holds each file to layout.h. Rules (docs/rules): structure.not-structured, wrong-layer,
+/// Checks each file against layout.h. Rules (docs/rules): structure.not-structured, wrong-layer,
 /// wrong-arc, absolute-path, missing-file, orphan-file, dangling-selection, below-instance,
-/// empty-over, scene-not-composed, legacy-schema. Findings stand at the layer's line.
+/// empty-over, scene-not-composed, legacy-schema. Findings name the layer's line.
 Diagnostics check_files(const AssetFiles& files);
 
 /// Holds the asset under one variant of "Physics": structure.dangling-target, live-collider.

@@ -26,7 +26,7 @@ struct LayerArc {
 };
 
 /// All sublayers, references and payloads of a layer, variants included, and with `assets` the
-/// asset values of its attributes, in the order of the layer's specs. Deleted arcs are left out.
+/// asset values of its attributes, in the order of the layer's specs. Deleted arcs are skipped.
 std::vector<LayerArc> arcs_of(const layer::Layer& layer, bool assets = false);
 
 }  // namespace tenon::structure

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A layer keeps its specs by path, and its tree is in the lists of children alone. What is written
-// here changes both, and a name in a list without a spec is passed over. Prims in variants stand in
-// the list of their variant, which no walk looks at. Walks keep their own stack, so that the depth
-// of a layer costs no call frames.
-// A child's name is appended to the list in place: the list is first taken out of the fields that
-// hold it, because a copy for each child would cost the square of their number.
+// A layer keeps its specs by path, and its tree is in the lists of children alone. These functions
+// change both, and a name in a list without a spec is skipped. Prims in variants are in the list of
+// their variant, which no walk looks at. Walks keep their own stack, so that the depth of a layer
+// costs no call frames. A child's name is appended to the list in place: the list is first taken
+// out of the fields that hold it, because a copy for each child would cost the square of their
+// number.
 #include "tenon/structure/layer_tree.h"
 
 #include <algorithm>

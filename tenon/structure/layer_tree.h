@@ -10,14 +10,14 @@
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/layer.h"
 
-/// Layers as trees of prims: what is needed to take them apart and to put them together. Prims in
-/// variants are not seen. The `children` fields are kept in step with the specs.
+/// Layers as trees of prims: functions to split and to join them. Prims in variants are not seen.
+/// The `children` fields are kept in step with the specs.
 namespace tenon::structure {
 
 using PathMap = std::function<Path(Path)>;
 
-/// The prims at and below `root`, which may be the root of the layer and is left out then; parents
-/// before children, children in order. The layer has a spec for each of them.
+/// The prims at and below `root`, which may be the root of the layer and is not included then;
+/// parents before children, children in order. The layer has a spec for each of them.
 std::vector<Path> prims_below(const layer::Layer& layer, Path root = Path::absolute_root());
 /// Child prims of a prim that are in the layer, with a spec for each.
 std::vector<Path> child_prims(const layer::Layer& layer, Path prim);

@@ -287,7 +287,7 @@ Ownership owner_of_type(Token type) {
     return kMaterial;
   }
   if (type == "Scope" || type == "Xform") {
-    // Joints stand in a scope; materials of an instance in another.
+    // Joints are in a scope; materials of an instance in another.
     return {Role::Base, RoleSet(Role::Interface, Role::Geometries, Role::Materials, Role::Instances,
                                 Role::Physics, Role::Physx, Role::Mujoco, Role::Newton,
                                 Role::Engine, Role::Variant)};

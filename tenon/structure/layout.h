@@ -103,8 +103,8 @@ Ownership owner_of_property(Token property, Token type, std::span<const Token> a
 /// A metadata field of a prim or property; arcs are no metadata (see may_lead).
 Ownership owner_of_metadata(Token field);
 
-/// Where a piece is to be written. What instances share can be changed in the file of the
-/// instances alone: opinions on it from elsewhere are not composed.
+/// The target file of a piece. What instances share can be changed in the file of the instances
+/// alone: opinions on it from elsewhere are not composed.
 Role file_for(Role owner, bool in_instance);
 
 enum class Arc : std::uint8_t { SubLayer, Reference, Payload, Asset };
@@ -114,7 +114,7 @@ std::string_view arc_name(Arc arc);
 /// the interface belongs into a variant. To Other: textures and modules of materials.
 bool may_lead(Role from, Arc arc, Role to);
 
-/// A schema name that current engines no longer read, and what is to be used.
+/// A schema name that current engines no longer read, and its replacement.
 struct Replacement {
   std::string_view legacy;
   std::string_view current;

@@ -46,16 +46,15 @@ Result<stage::Stage> open_package(const Package& package,
                                   std::size_t max_work = 0);
 
 /// Makes the bytes of the files of all layers, and each layer what a reader has of them: from then
-/// on the package is what will stand in its folder. Each layer is written and read once. The
-/// interface says what was written (written_note.h).
-/// Errors: Invalid "structure.differs" with the file, where a layer cannot be written or its bytes
-/// cannot be read.
+/// on the package is what its folder will contain. Each layer is written and read once. The
+/// interface notes the files written (written_note.h). Errors: Invalid "structure.differs" with the
+/// file, where a layer cannot be written or its bytes cannot be read.
 Result<void> store_layers(Package& package);
 
 /// What may be done to a folder that holds something.
 struct WriteOptions {
   /// Edits of what was written are overwritten. Files that were not written as part of an asset
-  /// stay, but for those that have the name of a new one or a place of the structure.
+  /// stay, except those with the name of a new file or at a place of the structure.
   bool force = false;
   bool in_place = false;         ///< the folder may be that of the asset that is read
   bool can_be_in_place = false;  ///< messages may name --in-place

@@ -3,10 +3,10 @@
 //
 // A file in the folder is one that this run has read, one that is as a package's note says, an
 // edited one or an unknown one. Edited and unknown files stop the writing unless it is forced,
-// files of the input unless it is in place. Files go when the new package lacks them, they stand at
-// a place of the structure, and they are known or the writing is forced.
-// A new folder appears by one rename. An old one is looked at a second time when the transaction
-// holds its locks, and the write ends unless the same files would go as before.
+// files of the input unless it is in place. Files are removed when the new package lacks them, they
+// are at a place of the structure, and they are known or the writing is forced. A new folder
+// appears by one rename. An old one is looked at a second time when the transaction holds its
+// locks, and the write ends unless the same files would go as before.
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>

@@ -71,7 +71,7 @@ void change_note(layer::Layer& layer, Change change) {
 /// No layer begins so.
 bool is_xml(std::string_view contents) { return contents.starts_with('<'); }
 
-/// Where the own digest stands in the bytes of a layer, and how many bytes it has.
+/// The place of the own digest in the bytes of a layer, and its length.
 struct Place {
   std::size_t at = 0;
   std::size_t size = 0;
@@ -319,7 +319,7 @@ Result<void> check_not_edited(const std::string& file, const Digests& beside) {
     return {};
   }
   return Error(ErrorCode::Invalid,
-               "files stand in the way that were not written with it: " + all_of(strange))
+               "files that were not written with it are in the way: " + all_of(strange))
       .in_file(file)
       .with_rule("output.unknown")
       .with_fix("name another place, or give --force to overwrite them");

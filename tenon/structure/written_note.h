@@ -40,7 +40,7 @@ void remove_note(layer::Layer& layer);
 /// Puts the digest of the bytes of a layer with a note in its place in them. Not for packages,
 /// which hold checksums over it: they are made twice, with `own_digest` of the first in the second.
 void seal(std::string& contents, const std::string& own);
-/// The digest of a file's contents but for the place of its own digest.
+/// The digest of a file's contents without the place of its own digest.
 std::uint64_t own_digest(std::string_view contents, const std::string& own);
 /// The digest of its own that a file's note has; nothing for a file without a note. Packages aside.
 std::optional<std::uint64_t> noted_own_digest(std::string_view contents, const std::string& own);
@@ -63,8 +63,8 @@ struct WrittenState {
 /// Of the asset that `file` opens; of a file that is none, or has no note, nothing is said.
 WrittenState written_state(const std::string& file);
 
-/// Where the copy lies that tells edits of the asset that `opening` opens from what was written, in
-/// the asset's folder; and whether a file in that folder is such a copy. No note speaks of copies.
+/// The copy that tells edits of the asset that `opening` opens from the written state, in the
+/// asset's folder; and whether a file in that folder is such a copy. No note lists copies.
 std::string copy_place(const std::string& opening);
 bool is_copy_place(std::string_view name);
 

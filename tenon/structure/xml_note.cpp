@@ -11,7 +11,7 @@ constexpr std::string_view kBegin = "<!-- written by tenon; digests of the files
 constexpr std::string_view kEnd = "-->\n";
 constexpr std::string_view kHex = "0123456789abcdef";
 
-/// A name as it may stand in a comment, which two hyphens would end, on one line.
+/// A name as allowed in a comment, which two hyphens would end, on one line.
 std::string escaped(std::string_view name) {
   std::string text;
   for (const char c : name) {

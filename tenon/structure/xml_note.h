@@ -9,19 +9,19 @@
 #include <string_view>
 
 /// What a robot's description in XML says about its own files (written_note.h): a comment behind
-/// its root element, which readers of URDF and MJCF pass over,
+/// its root element, which readers of URDF and MJCF skip,
 ///
 ///     <!-- written by tenon; digests of the files as they were
 ///     0123456789abcdef
 ///     fedcba9876543210 arm_meshes/mesh_0.obj
 ///     -->
 ///
-/// of the description itself first, then of what lies beside it.
+/// of the description itself first, then of the files next to it.
 namespace tenon::structure {
 
 struct XmlNote {
   std::uint64_t own = 0;
-  std::size_t own_at = 0;                       ///< where its digits stand in the text
+  std::size_t own_at = 0;                       ///< where its digits are in the text
   std::map<std::string, std::uint64_t> others;  ///< by name, relative to the folder of the text
 };
 

@@ -13,7 +13,7 @@
 
 namespace tenon::view {
 
-/// What a view may hold at most; what is beyond it is left out and noted.
+/// The maximum contents of a view; anything beyond is skipped and noted.
 struct ViewLimits {
   std::size_t shapes = 200'000;           ///< things drawn
   std::size_t corners = 60'000'000;       ///< of triangles, of meshes that are kept

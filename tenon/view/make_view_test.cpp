@@ -244,7 +244,7 @@ TEST(MakeView, BodiesOfAJointDoNotTouch) {
   EXPECT_NEAR(*view.joints[0].limits[0].upper, std::numbers::pi / 4, 1e-6);
 }
 
-// Closed and outward: the volumes of solids, less what 32 corners of a circle leave out.
+// Closed and outward: the volumes of solids, less the loss of 32 corners for a circle.
 TEST(RoundMeshes, AreClosedAndOutward) {
   constexpr double kPi = std::numbers::pi;
   EXPECT_NEAR(volume_of(box_mesh({{1, 2, 3}})), 48, 1e-5);

@@ -5,7 +5,7 @@
 // shader of `outputs:mdl:surface`, of which the inputs of OmniPBR and its kin are read that have
 // the same meaning. Inputs are followed through the interfaces of materials and node graphs.
 // glTF takes roughness from green and metallic from blue of one image, so images of one channel
-// each are told of and left out, but for roughness of what is no metal.
+// each are reported and skipped, except roughness of surfaces without metallic.
 #include "tenon/view/surfaces.h"
 
 #include <algorithm>

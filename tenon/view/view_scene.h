@@ -68,7 +68,7 @@ struct ViewMesh {
 /// A mesh at a place: rotation, translation [m] and scale in the frame of its body or the world.
 struct ViewShape {
   Path path;                  ///< the prim
-  std::optional<Index> body;  ///< into ViewScene::bodies; none: it stands in the world
+  std::optional<Index> body;  ///< into ViewScene::bodies; none: it is fixed to the world
   Pose pose;
   Vec3d scale{{1, 1, 1}};  ///< of the points, before `pose`; negative along one axis: mirrored
   Index mesh = 0;          ///< into ViewScene::meshes, which several shapes may share
@@ -136,7 +136,7 @@ struct ViewArticulation {
   std::vector<Index> joints;
 };
 
-/// What was left out so that the whole can be shown, in the words of a sentence.
+/// What was skipped so that the whole can be shown, as a sentence.
 struct ViewNote {
   Path prim;  ///< empty: of the whole
   std::string what;
@@ -145,7 +145,7 @@ struct ViewNote {
 struct ViewScene {
   Vec3d up{{0, 1, 0}};  ///< of the world
   std::vector<ViewBody> bodies;
-  std::vector<ViewShape> shapes;  ///< what is seen
+  std::vector<ViewShape> shapes;  ///< the visuals
   std::vector<ViewMesh> meshes;
   std::vector<ViewMaterial> materials;
   std::vector<ViewImage> images;

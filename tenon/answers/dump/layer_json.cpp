@@ -4,7 +4,7 @@
 // Specs are sorted by path and their fields by name, so that the text depends on what a layer says
 // and not on how it is stored. The switch over types is made of value_types.def; dictionaries,
 // samples and values without a schema lead back to it. Fields that only repeat what holds without
-// them are left out, and so are target and connection specs that have no fields, since their
+// them are omitted, and so are target and connection specs that have no fields, since their
 // property lists them.
 #include "tenon/answers/dump/layer_json.h"
 

@@ -11,10 +11,10 @@ namespace tenon::answers {
 
 /// What one layer says, uncomposed: `{ "<spec path>": {field: value} }`, specs in path order, in
 /// the form that the layer tests of the AOUSD core specification record. Lists of edits are
-/// {"explicit" | "delete" | "add" | "prepend" | "append" | "order": [..]}, empty ones left out;
-/// arcs {"asset", "path", "layerOffset", "customData"}; a blocked value is null; floats have the
-/// fewest digits that read back as the same float; quaternions end with the real part. Left out:
-/// fields that say what holds anyway (custom = false, varying attributes, the variability of
+/// {"explicit" | "delete" | "add" | "prepend" | "append" | "order": [..]}, empty ones omitted; arcs
+/// {"asset", "path", "layerOffset", "customData"}; a blocked value is null; floats have the fewest
+/// digits that read back as the same float; quaternions end with the real part. Omitted: fields
+/// that say what holds anyway (custom = false, varying attributes, the variability of
 /// relationships, the specifier of variants).
 void write_layer_json(std::ostream& out, const layer::Layer& layer);
 

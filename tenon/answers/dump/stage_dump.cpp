@@ -4,8 +4,8 @@
 // The dump has to be the same whichever program composed the stage, so nothing in it is a matter of
 // that program: prototypes are named after the smallest path that uses them, files by their place
 // from the folder of the root layer, errors as OpenUSD names them, and sets are sorted. All prims
-// are visited before the first line, because any path in a value may lie in a prototype and needs
-// its name. Session layers are left out of the layer stack.
+// are visited before the first line, because any path in a value may be in a prototype and needs
+// its name. Session layers are not in the layer stack.
 #include "tenon/answers/dump/stage_dump.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using stage::Prim;
 
-// Every prim below `root`, itself left out, depth first, proxies included or not.
+// Every prim below `root`, without itself, depth first, proxies included or not.
 std::vector<Prim> traverse(const Prim& root, bool proxies) {
   std::vector<Prim> result;
   std::vector<Prim> pending{root};

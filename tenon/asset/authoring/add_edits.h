@@ -13,7 +13,7 @@
 
 namespace tenon {
 
-/// What is to be added, or taken away, as people write it.
+/// A prim to add or remove, as people write it.
 struct AuthoringRequest {
   std::vector<std::string> what;               ///< PATH=KIND or PATH=KIND,KIND,...
   std::map<std::string, std::string> options;  ///< of authoring_options(), without dashes

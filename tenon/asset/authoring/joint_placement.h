@@ -13,7 +13,7 @@
 /// Internal to the wiring.
 namespace tenon {
 
-/// Where a joint is to be, in the world as the stage has it (units of length of the stage).
+/// The place of a joint, in the world as the stage has it (units of length of the stage).
 struct JointWish {
   stage::Prim body0;         ///< invalid: the world
   stage::Prim body1;         ///< the same; one of them is a prim

@@ -6,7 +6,7 @@
 // written, and it is checked again, so that the findings are those that are left; where nothing is
 // written, they are those of the first check. The baseline is held against the whole list at the
 // end, because it says how many equal findings are known. An asset may name layers of others, which
-// are not its to change: only what belongs to it, or to what is to be checked, is corrected.
+// are not its to change: only its own files, or those of the assets to check, are corrected.
 #include "tenon/asset/checking/check_assets.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ class AssetsCheck {
     }
   }
 
-  /// The files of the asset and of what is to be checked.
+  /// The files of the asset and of the assets to check.
   bytes::ReadPolicy policy_of(const std::string& asset) const {
     bytes::ReadPolicy policy = policy_for(asset, options_.check.open);
     for (const std::string& given : paths_) {
@@ -86,7 +86,7 @@ class AssetsCheck {
       finding.severity = Severity::Warning;
       finding.file = asset;
       finding.message = "the layer " + finding.message + ", and is not corrected";
-      finding.fix = "if it is to be corrected, name it or its folder, or give --allow-read FOLDER";
+      finding.fix = "to correct it, name it or its folder, or give --allow-read FOLDER";
       add(finding);
     }
     return admitted.has_value();

@@ -37,7 +37,7 @@ bool all_finite(const Numbers& numbers) {
 
 constexpr const char* kNoElement = "the model has no element of its name";
 
-/// The text, and what is to be said in it.
+/// The text, and its new contents.
 struct Patching {
   ModelText text;
   const PhysicsScene& scene;

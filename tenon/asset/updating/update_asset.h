@@ -44,7 +44,7 @@ Result<UpdatedAsset> update_asset(const structure::Package& made, const std::str
                                   diff::Side keep, Diagnostics& diagnostics);
 
 /// update_asset for what `made.interface` opens in `folder`; nothing where there is no such file,
-/// so that `made` is to be written as it is.
+/// so that `made` must be written as it is.
 Result<std::optional<UpdatedAsset>> update_folder(const structure::Package& made,
                                                   const std::string& folder, diff::Side keep,
                                                   Diagnostics& diagnostics);

@@ -33,7 +33,7 @@ class CommandNames {
   std::map<std::string, CommandColumn, std::less<>> known_;
 };
 
-/// At most 100 bytes of a name that stands in a message, in quotes.
+/// At most 100 bytes of a name for a message, in quotes.
 std::string shown_name(std::string_view name);
 
 }  // namespace tenon::bake

@@ -17,7 +17,7 @@ class PathSlots {
   /// For a table of so many slots, a power of two, in which nothing is yet.
   PathSlots() = default;
   explicit PathSlots(std::size_t slot_count) : mask_(slot_count - 1) {}
-  /// The same, when all that is to be put in first lies among these numbers.
+  /// The same, when all entries put in first are among these numbers.
   PathSlots(std::size_t slot_count, std::uint32_t least, std::uint32_t most)
       : mask_(slot_count - 1), in_order_(least <= most && most - least < slot_count) {}
 

@@ -68,8 +68,8 @@ class FileTransaction {
   friend class Commit;
 };
 
-/// Refuses a folder that is to be replaced, or to be taken away, with what is in it: an Error with
-/// rule "output.is-input" when the run has read one of its files.
+/// Refuses a folder to be replaced or removed with its contents: an Error with rule
+/// "output.is-input" when the run has read one of its files.
 Result<void> check_holds_no_input(const std::string& folder);
 
 }  // namespace tenon::bytes

@@ -51,7 +51,7 @@ class WorkMeter {
   void note_once(std::size_t units) { once_ += units; }
   std::size_t once() const { return once_; }
   bool exhausted() const { return done_ >= most_; }
-  /// Whether this much more would be too much; where it is, nothing more is to be done.
+  /// Whether this much more would be too much; if so, nothing more may be done.
   bool refuses(std::size_t units) {
     const bool too_much = exhausted() || units >= most_ - done_;
     done_ = too_much ? std::max(done_, most_) : done_;

@@ -13,7 +13,7 @@ namespace tenon::mjcf {
 /// The file of an image, or why there is none.
 struct TextureFile {
   std::string path;     ///< absolute; empty: none
-  std::string why_not;  ///< what is to be said of the texture then, behind its name
+  std::string why_not;  ///< the reason for the message, behind the texture's name
 };
 
 /// Of a flat image that lies in a file: where textures are, beside the model or beside the file

@@ -10,17 +10,17 @@
 
 namespace tenon::structure {
 
-/// Where files went: asset path, absolute but for what a search path has -> name in the package.
+/// Where files went: asset path, absolute except for search paths -> name in the package.
 using CollectedAssets = std::map<std::string, std::string>;
 
 /// Puts the files that attributes of the package's layers name into its folder "Textures" (modules
 /// of materials into "Materials" with Names::Tutorial), files of one name and content once, and
 /// makes the paths to them relative. `<UDIM>` patterns bring all their tiles. What cannot be read
 /// is named where it would be, with the diagnostic "structure.asset-missing": the asset can be
-/// moved all the same. What a search path leads to is collected as well; a name that leads nowhere
-/// stays, with the same diagnostic but for modules of renderers. So is what lies outside of the
-/// asset's folders, or is nothing that a scene shows or plays, with an error: "read.outside",
-/// "read.wrong-kind" (docs/reading.md).
+/// moved all the same. Files found by a search path are collected as well; a name that leads
+/// nowhere stays, with the same diagnostic except for modules of renderers. So does a file outside
+/// of the asset's folders, or one of a kind that no scene shows or plays, with an error:
+/// "read.outside", "read.wrong-kind" (docs/reading.md).
 CollectedAssets collect_assets(const AssetSource& source, Names names, Package& package,
                                Diagnostics& diagnostics);
 

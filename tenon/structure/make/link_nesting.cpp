@@ -33,7 +33,7 @@ using layer::Layer;
 using layer::Spec;
 using layer::Value;
 
-constexpr double kSameRotation = 1e-12;  // of a matrix that is a rotation but for rounding
+constexpr double kSameRotation = 1e-12;  // of a matrix that is a rotation up to rounding
 constexpr double kSamePlace = 1e-9;      // [stage units], and relative
 
 /// The prims above one, nearest first, without the root.
@@ -120,7 +120,7 @@ class Planner {
   }
 
   /// Bodies of the scene that are links on the ones that their trees hang them on. The root of a
-  /// floating articulation stays its root, as what lies above all its other links (S-109).
+  /// floating articulation stays its root, above all its other links (S-109).
   void find_carriers(const scene::PhysicsScene& scene) {
     const scene::JointForest forest =
         scene::joint_forest(scene, scene::FloatingRoots::ArticulationsOrDirections);

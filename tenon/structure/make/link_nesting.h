@@ -16,7 +16,7 @@
 namespace tenon::structure {
 
 /// Puts the links of a robot, its rigid bodies, side by side or below the links that carry them by
-/// joints. What lies below a link and is no link goes with it; places in the world stay.
+/// joints. Other descendants of a link go with it; places in the world stay.
 class LinkMoves {
  public:
   /// Decided on all views of an asset laid over each other, and on the physics that this is read

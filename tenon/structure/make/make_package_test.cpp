@@ -28,7 +28,7 @@ layer::LayerPtr source_layer(std::string text, const std::string& identifier) {
   return std::make_shared<layer::Layer>(*std::move(layer));
 }
 
-/// A source of one layer; `assets` are what lies beside it.
+/// A source of one layer; `assets` are the files next to it.
 AssetSource source_of(const std::string& text, const Files& assets = {}) {
   AssetSource source;
   source.root = source_layer(text, "/in/robot.usda");

@@ -30,7 +30,7 @@ void add_list(Layer& content, Path property, const std::vector<Path>& all) {
 }
 
 /// Depth first from the roots of the forest; joints are listed with the body that they hang others
-/// on. Roots and children are taken as their prims stand in the content.
+/// on. Roots and children are in the order of their prims in the content.
 class Orderer {
  public:
   Orderer(const Layer& content, const scene::PhysicsScene& scene)

@@ -10,8 +10,8 @@
 namespace tenon::structure {
 
 /// The bodies and joints of a robot in the order of its joint forest: each link before those that
-/// hang on it; joints to the world and of loops, and what the scene does not have, come last, as
-/// they stand in the content. All are paths of the content.
+/// hang on it; joints to the world and of loops, and those that the scene does not have, come last,
+/// in the order of the content. All are paths of the content.
 struct KinematicOrder {
   std::vector<Path> links;
   std::vector<Path> joints;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All variants stand over one base, so a mesh or a collider that only some of them use lies there
-// switched off: it sleeps, and the layer of a variant wakes it. The base takes what a sleeping prim
-// is from the first view that has it awake, without physics unless it is a collider. Views are
-// united for decisions that have to be the same in all of them: a prim is taken from the first view
-// in which it is awake, with the API schemas of all. Order among siblings is kept throughout.
+// All variants share one base, so a mesh or a collider that only some of them use is switched off
+// there: it sleeps, and the layer of a variant wakes it. The base takes what a sleeping prim is
+// from the first view that has it awake, without physics unless it is a collider. Views are united
+// for decisions that have to be the same in all of them: a prim is taken from the first view in
+// which it is awake, with the API schemas of all. Order among siblings is kept throughout.
 #include "tenon/structure/make/sleeping_colliders.h"
 
 #include <algorithm>

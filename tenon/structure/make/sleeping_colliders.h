@@ -8,8 +8,8 @@
 
 namespace tenon::structure {
 
-/// Shapes that are there to collide and not to be seen (purpose guide, or invisible): the wrapper
-/// of a mesh, or the shape itself. Those that are bodies or have children are left out.
+/// Shapes that only collide and are not drawn (purpose guide, or invisible): the wrapper of a mesh,
+/// or the shape itself. Those that are bodies or have children are skipped.
 std::set<Path> pure_colliders(const layer::Layer& content);
 
 /// All of several views in one: each prim as the first view has it that has it switched on, API

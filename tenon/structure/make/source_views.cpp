@@ -108,7 +108,7 @@ Token field_of_targets(const layer::Spec& spec) {
 }
 
 /// Nothing outside the default prim is left that a target could name, and references to an asset
-/// drop such targets. The root stands for all that there is.
+/// drop such targets. The root means everything.
 void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& said,
                           Diagnostics& diagnostics) {
   for (const Path& prim : prims_below(content)) {
@@ -128,7 +128,7 @@ void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& sai
       }
       if (targets.size() != count && said.insert(property).second) {
         diagnostics.add({Severity::Warning, "structure.target-outside",
-                         "a target names <" + dropped + ">, which is not there; it is left out",
+                         "a target names <" + dropped + ">, which does not exist; it is skipped",
                          prim.str(), property.name().str(), "name a prim of the asset"});
       }
     }

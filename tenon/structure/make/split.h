@@ -27,9 +27,9 @@ struct BaseFiles {
   layer::Layer materials;
 };
 
-/// Takes a content apart, whose meshes stand in wrappers with their materials, and joins the parts
-/// by references. Geometries, instances and materials that are the same to the last bit are
-/// written once.
+/// Splits a content, whose meshes are in wrappers with their materials, and joins the parts by
+/// references. Geometries, instances and materials that are the same to the last bit are written
+/// once.
 Result<BaseFiles> split_base(const layer::Layer& content, const SplitOptions& options);
 
 /// Name of the file relative to another one of the asset: "./instances.usda".

@@ -103,7 +103,7 @@ void tidy_prim(Spec& prim) {
   }
 }
 
-/// Relationships that MaterialBindingAPI stands for; its definition lists none of them, for their
+/// Relationships that MaterialBindingAPI covers; its definition lists none of them, because their
 /// names go on with purposes and collections.
 bool is_material_binding(std::string_view name) {
   return name == "material:binding" || name.starts_with("material:binding:");
@@ -260,7 +260,7 @@ Layer below_default_prim(Layer flat, Token robot, std::map<Path, Path>* moved) {
     return path;
   };
   Layer content = without_prims(flat, flat.identifier());
-  remove_note(content);  // it speaks of the source's files
+  remove_note(content);  // it is about the source's files
   content.root().erase(fields::subLayers);
   content.root().set(fields::defaultPrim, robot);
   copy_tree(flat, top, content, top, map);
@@ -283,8 +283,7 @@ Error not_a_robot(const stage::Prim& prim, const Layer& root) {
 }  // namespace
 
 Error no_default_prim(const Layer& root) {
-  return Error(ErrorCode::NotFound,
-               "the asset defines no default prim, which is to become the robot")
+  return Error(ErrorCode::NotFound, "the asset defines no default prim, which becomes the robot")
       .in_file(root.identifier())
       .with_rule("stage.default-prim-missing")
       .with_fix("author defaultPrim with the name of the root prim");

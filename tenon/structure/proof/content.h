@@ -16,9 +16,8 @@ Error no_default_prim(const layer::Layer& root);
 
 /// What a stage composes to as one layer without arcs: instances unfolded, asset paths absolute
 /// where the asset exists, properties of vendor schemas not custom and as uniform as their schemas
-/// say. A prim that is switched off stands there with its type alone. All is below the default
-/// prim: other prims of the root come below it, and paths follow; `moved` gets their old and new
-/// places.
+/// say. A prim that is switched off is included with its type alone. All is below the default prim:
+/// other prims of the root come below it, and paths follow; `moved` gets their old and new places.
 /// Errors: ErrorCode::NotFound without a default prim; Limit.
 Result<layer::Layer> content_of(const stage::Stage& stage, std::map<Path, Path>* moved = nullptr);
 

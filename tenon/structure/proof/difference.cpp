@@ -3,9 +3,9 @@
 //
 // A layer put over a weaker one can add and replace but not take back. What only `weak` has is
 // therefore switched off, blocked or given an empty list of targets. Below a prim that is off
-// nothing more has to be taken away. Properties leave out fields that both have alike, but not
-// their declaration, which every spec repeats. A metadata field of `weak` alone cannot be undone,
-// and the proof of the package finds it.
+// nothing more has to be taken away. Properties omit fields that both have alike, but not their
+// declaration, which every spec repeats. A metadata field of `weak` alone cannot be undone, and the
+// proof of the package finds it.
 #include <algorithm>
 
 #include "tenon/layer/fields.h"
