@@ -18,6 +18,7 @@ import check_outputs
 import check_sizes
 import check_snippets
 import check_text
+import check_words
 import tidy
 
 RULE = "base :\nlayer : base\nengines : base\nengines/mujoco : base engines\ntenon : base layer\n"
@@ -348,6 +349,51 @@ class Text(unittest.TestCase):
         ]:
             with self.subTest(path=path, text=text[-40:]):
                 self.assertTrue(self.faults(path, text))
+
+
+class Words(unittest.TestCase):
+    """Phrases of the glossary's last column are found in prose, and their numbers only shrink."""
+    RULES = check_words.avoided("| Word | Meaning | Not |\n|---|---|---|\n"
+                                "| skipped | not used | `lost*`, `put ... aside` |\n"
+                                "| body | a rigid body | link |\n")
+    CASES = [
+        # file, text, how many
+        ("a.md", "It is lost.", 1),
+        ("a.md", "Losting, LOST and a los.", 2),
+        ("a.md", "`x.lost`, lost-and-found, part-lost, my_lost", 0),
+        ("a.md", "They put all of it aside, and put one two three four aside.", 1),
+        ("a.md", "A link may stay.", 0),
+        ("a.md", "one\n\n```\nlost\n```\n", 0),
+        ("tenon/a.cpp", "int lost;  // lost\n", 1),
+        ("tenon/a.cpp", "f(\"it is lost\", lost);\n", 1),
+        ("tenon/folders.txt", "# lost\n", 1),
+    ]
+
+    def test_prose(self):
+        for path, text, count in self.CASES:
+            with self.subTest(path=path, text=text):
+                self.assertEqual(len(check_words.places(path, text, self.RULES)), count)
+
+    def test_place(self):
+        self.assertEqual(check_words.places("a.md", "one\nis lost\n", self.RULES),
+                         ['a.md:2: "lost"; write: skipped'])
+
+    def test_files(self):
+        held = ["a.md", "docs/a.md", "tenon/a.h", "cli/a.cpp", "tenon/folders.txt", "tenon/a.def"]
+        free = ["docs/glossary.md", "tests/a.cpp", "tenon/generated/a.h", "tools/a.py"]
+        self.assertEqual([name for name in held + free if check_words.is_held(name)], held)
+
+    def test_numbers_only_shrink(self):
+        left = check_words.read_left("# head\n2 a.md\n1 b.md\n1 c.md\n")
+        found = {"a.md": ["1"], "b.md": ["1", "2"], "c.md": [], "d.md": ["1"]}
+        self.assertEqual(check_words.too_many(found, left), ["1", "2", "1"])
+        self.assertEqual(check_words.lowered(left, found), {"a.md": 1, "b.md": 1})
+
+    def test_the_glossary_itself(self):
+        rules = check_words.avoided(check_words.read(check_words.GLOSSARY))
+        self.assertGreater(len(rules), 50)
+        for phrase in ("is left out", "what is seen", "takes meshes apart", "Whoever reads it"):
+            self.assertTrue(any(rule.search(phrase) for rule, _ in rules), phrase)
 
 
 class Tidy(unittest.TestCase):

@@ -74,7 +74,7 @@ void report_instanced(const stage::Prim& prim, Diagnostics& diagnostics) {
       Severity::Error, "bake.instanced-body",
       "the body <" + prim.path().str() + "> lies inside an instance and cannot be animated");
   finding.fix =
-      "take the instances apart (tenon bake --uninstance), or put the rigid body on the instance "
+      "make the instances unique (tenon bake --uninstance), or put the rigid body on the instance "
       "root";
   diagnostics.add(std::move(finding));
 }

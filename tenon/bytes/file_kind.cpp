@@ -134,7 +134,7 @@ bool is_anymap(std::string_view bytes) {
                          : bytes[1] >= '4' && bytes[1] <= '6' && (is_number || bytes[3] == '#');
 }
 
-/// A frame of MPEG audio: layer, rate and frequency are none of the reserved ones.
+/// A frame of MPEG audio: layer, rate and frequency are not reserved.
 bool is_mpeg_audio(std::string_view bytes) {
   return bytes.size() > 4 && byte_at(bytes, 0) == 0xff && (byte_at(bytes, 1) & 0xe6u) == 0xe2u &&
          (byte_at(bytes, 2) >> 4) != 15 && (byte_at(bytes, 2) >> 4) != 0 &&

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sending and receiving go on at the same time, so that two sides with much to say cannot wait for
-// each other. The program is the first of a process group, which is killed as a whole. That all of
-// the group is gone is known by its standard error: whoever was started by the program holds it
-// open, and the last one closes it.
+// each other. The program is the first of a process group, which is killed as a whole. The end of
+// the group is seen at its standard error: each process that the program started holds it open, and
+// the last one closes it.
 #include "tenon/guard/driven_program.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Workers that do harm, as scripts; the socket is their standard input.
+/// Malicious workers, as scripts; the socket is their standard input.
 class HostileWorker : public testing::Test {
  protected:
   void SetUp() override {

@@ -20,8 +20,8 @@ namespace tenon::mjcf {
 /// touch nothing and weigh nothing; colliders are in group 3. Files of images have the names that
 /// the text uses, `images` their bytes. Shapes and materials that MuJoCo does not support go to
 /// `diagnostics` as "mjcf.left-out", all visuals where MuJoCo refuses them. Of `parts`, of the same
-/// stage, actuators are added after drives that are none of them, and keyframes. Things are called
-/// as `name_of` says. Errors: those of making a model.
+/// stage, actuators are added after other drives, and keyframes. Elements are named by `name_of`.
+/// Errors: those of making a model.
 Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::RobotModel& visuals,
                                 const std::map<std::string, std::string>& images,
                                 const scene::MujocoParts& parts, const NameOf& name_of,

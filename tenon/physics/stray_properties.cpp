@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tables of schemas say which API a property belongs to. A property that neither the type of
-// its prim nor an applied API declares, and that some API of physics does, is ignored, whoever
-// reads the file. Most names are declared, or lie outside of the namespaces of physics, so the
-// tables are asked for few of them.
+// its prim nor an applied API declares, and that some API of physics does, is ignored by all
+// readers. Most names are declared, or are outside of the namespaces of physics, so the tables are
+// asked for few of them.
 #include "tenon/physics/stray_properties.h"
 
 #include <algorithm>

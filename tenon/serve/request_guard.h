@@ -14,7 +14,7 @@ namespace tenon::serve {
 /// tells nothing about the token.
 std::optional<std::string> route_of(std::string_view target, std::string_view token);
 
-/// The target is "/TOKEN" alone: whoever typed it means "/TOKEN/".
+/// The target is "/TOKEN" alone, which means "/TOKEN/".
 bool lacks_slash(std::string_view target, std::string_view token);
 
 /// Whether the value of a Host header names this server by an address or as localhost: a page of a

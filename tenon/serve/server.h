@@ -84,7 +84,7 @@ class Server {
   // ---- from one thread
 
   /// From now on SIGINT and SIGTERM end run(); one that arrives before it ends it at once. For
-  /// whoever tells the address before run().
+  /// programs that print the address before run().
   void heed_signals();
   /// Serves until stop() or until SIGINT or SIGTERM arrives; true where it was such a signal.
   /// `receive` hears of clients on this thread and must not wait; where it answers false to what

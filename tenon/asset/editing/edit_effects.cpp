@@ -24,7 +24,7 @@ namespace {
 
 using Differences = std::vector<scene::SceneDifference>;
 
-/// What is listed as not read says nothing about motion.
+/// Lists of unread properties do not affect motion.
 Differences differences_between(const scene::PhysicsScene& before,
                                 const scene::PhysicsScene& after) {
   Differences found = scene::scene_differences(before, after);

@@ -72,7 +72,7 @@ std::optional<std::size_t> AssetLayers::named_layer(const std::string& name,
   if (const auto known = search.known.find(*identifier); known != search.known.end()) {
     return known->second;
   }
-  Diagnostics ignored;  // whoever opens the stage reports them
+  Diagnostics ignored;  // opening the stage reports them
   auto opened = open_layer(*identifier, search.options, ignored);
   if (!opened) {
     return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<std::size_t> AssetLayers::named_layer(const std::string& name,
 Result<AssetLayers> AssetLayers::open(const std::string& path, const OpenOptions& options) {
   AssetLayers asset;
   Search search{options, policy_for(path, options), {}};
-  Diagnostics ignored;  // whoever opens the stage reports them
+  Diagnostics ignored;  // opening the stage reports them
   TENON_TRY(layer::LayerPtr root, open_layer(path, options, ignored));
   bytes::ResolverOptions resolving = resolver_options(options);
   const std::string file = bytes::split_package_path(root->identifier()).package;

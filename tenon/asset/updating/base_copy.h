@@ -24,7 +24,7 @@ struct BaseCopy {
 
 /// The bytes of the copy of a package with its layers stored.
 Result<std::string> encode_base(const structure::Package& package);
-/// structure::write_package with the copy among the files, as whoever makes an asset writes it.
+/// structure::write_package with the copy among the files, as for every asset that tenon makes.
 Result<void> write_with_base(structure::Package package, const std::string& folder,
                              const structure::WriteOptions& options);
 

@@ -128,7 +128,7 @@ std::optional<Journal> read_journal(const std::string& path) {
 }
 
 Result<void> finish_journal(const std::string& home) {
-  TENON_TRY(const FolderLock lock, FolderLock::take({home}));  // whoever is at it ends first
+  TENON_TRY(const FolderLock lock, FolderLock::take({home}));  // another transaction ends first
   const std::string path = home + "/" + std::string(kJournalName);
   const std::optional<Journal> journal = read_journal(path);
   if (!journal) {

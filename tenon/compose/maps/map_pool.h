@@ -12,10 +12,8 @@
 #include "tenon/compose/prim_index.h"
 #include "tenon/compose/work/work_meter.h"
 
-/// Internal: where map functions of nodes live, and nodes and opinions that others are
-/// like. Maps of many pairs,
-/// which relocates make, are made once for all prims that they apply to: whoever needs one first
-/// pays for it.
+/// Internal: owns map functions of nodes, and shared nodes and opinions. Maps of many pairs, which
+/// relocates make, are made once for all prims that they apply to: the first user pays for them.
 namespace tenon::compose {
 
 /// Units of work to look for a map that is there.

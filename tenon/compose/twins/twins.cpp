@@ -52,7 +52,7 @@ bool has_element(Path path, Token name) {
   return false;
 }
 
-/// Layer stacks are made for whoever needs them first.
+/// Layer stacks are made for the prim that needs them first.
 std::size_t work_of_prims(const WorkMeter& work) { return work.done() - work.once(); }
 
 /// Payloads that are loaded by name tell twins apart.

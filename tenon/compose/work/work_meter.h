@@ -47,7 +47,7 @@ class WorkMeter {
 
   void count(std::size_t units) { done_ += units; }
   std::size_t done() const { return done_; }
-  /// Takes note that so much of it was for what is made once, whoever needs it first.
+  /// Notes that so much of it was for objects that are made once, for their first user.
   void note_once(std::size_t units) { once_ += units; }
   std::size_t once() const { return once_; }
   bool exhausted() const { return done_ >= most_; }

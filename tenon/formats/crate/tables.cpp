@@ -3,9 +3,9 @@
 //
 // Nothing in the file is trusted. A section is a window that lies within the file, a table may have
 // no more rows than a constant and the size of the file allow, which is checked before memory is
-// taken, and every index is checked when its row is read. Whoever uses the tables needs no checks
-// of their own. Specs come after the paths, which path_tree.cpp reads: each is noted under its
-// path, which finds doubles.
+// taken, and every index is checked when its row is read. Users of the tables need no checks of
+// their own. Specs come after the paths, which path_tree.cpp reads: each is noted under its path,
+// which finds doubles.
 #include "tenon/formats/crate/tables.h"
 
 #include <algorithm>

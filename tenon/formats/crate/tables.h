@@ -41,8 +41,8 @@ struct SpecRow {
   layer::SpecKind kind;     ///< None where there is no spec
 };
 
-/// The structural sections of a crate file; every index in them is in range. What a large file says
-/// takes as much memory here as in the layer: whoever needs a part no more lets it go.
+/// The structural sections of a crate file; every index in them is in range. The contents of a
+/// large file take as much memory here as in the layer: parts that are no longer needed are freed.
 struct Tables {
   std::shared_ptr<const CrateFile> file;
   std::vector<FieldRow> fields;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Within a site, layers are composed from weak to strong; sites then from strong to weak. Core Spec
-// 1.0.1 section 12 on value clips. Times move as the layer that names the assets does, whoever
-// gives them; as OpenUSD has it.
+// 1.0.1 section 12 on value clips. Times move with the layer that names the assets, whichever layer
+// authors them; as in OpenUSD.
 #include "tenon/stage/clips/clip_definition.h"
 
 #include <algorithm>

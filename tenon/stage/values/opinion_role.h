@@ -9,7 +9,7 @@ enum class OpinionRole : unsigned char {
   Wins,      ///< gives the value, or says that there is none (a block)
   Combined,  ///< has a part in it beside the one that wins
   Loses,
-  Declares,  ///< a spec that says nothing about it
+  Declares,  ///< a spec without an opinion on it
 };
 
 /// Why an opinion has its role.

@@ -20,7 +20,7 @@ layer::Layer unite(const std::vector<const layer::Layer*>& views);
 void put_to_sleep(layer::Layer& content, const std::set<Path>& prims);
 
 /// Gives prims that sleep in `base` what they are in `view`, still switched off, and adds meshes
-/// that only `view` has, switched off: geometry has its place below the base, whoever uses it.
+/// that only `view` has, switched off: geometry belongs in the base, whichever variant uses it.
 /// Physics comes along for `colliders` alone.
 void fill_sleeping(layer::Layer& base, const layer::Layer& view, const std::set<Path>& colliders);
 

@@ -78,7 +78,7 @@ class VelocityCaps {
   std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
   std::vector<double> change_;    ///< scratch (dof_count)
   std::vector<char> is_held_;     ///< (dof_count) in a tree with equalities
-  bool takes_back_ = false;       ///< some is not, and steps are none of Runge and Kutta's method
+  bool takes_back_ = false;       ///< some is not, and steps are not Runge-Kutta steps
 };
 
 }  // namespace tenon::engines::mujoco

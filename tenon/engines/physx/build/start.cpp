@@ -58,7 +58,7 @@ void insert(Build& build) {
 }
 
 void set_ball(const JointMap& map, const Pose& relative, px::PxReal* positions) {
-  // Twist about x and swings about y and z, as PhysX takes a ball's turn apart.
+  // Twist about x and swings about y and z, as PhysX splits a ball's rotation.
   const Pose of_child = map.reversed ? inverse(relative) : relative;
   const Vec3d turn = rotation_vector(of_child.orientation);
   for (int i = 0; i < 3; ++i) {
