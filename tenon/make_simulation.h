@@ -19,7 +19,7 @@ namespace tenon {
 
 /// The engines of this build, sorted by name; those not built are listed as not available.
 std::vector<engines::EngineInfo> list_engines();
-/// The one of that name; of unknown names a row that says nothing.
+/// The one of that name; an empty row for unknown names.
 engines::EngineInfo engine_info(const std::string& engine);
 
 /// A simulation of `scene` (which must outlive it) on the engine of that name.
@@ -27,7 +27,7 @@ Result<std::unique_ptr<engines::Simulation>> make_simulation(
     const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics);
 
-/// The same as a value, which has no virtual functions in sight.
+/// The same as a value, without virtual functions in its interface.
 Result<engines::World> make_world(const std::string& engine, const scene::PhysicsScene& scene,
                                   const engines::SimulationOptions& options,
                                   Diagnostics& diagnostics);

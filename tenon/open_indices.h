@@ -12,7 +12,7 @@
 
 namespace tenon {
 
-/// The composition of a file before it is populated, for those who look at indices.
+/// The composition of a file before it is populated, for users of its indices.
 Result<std::unique_ptr<compose::IndexCache>> open_indices(const std::string& path,
                                                           const OpenOptions& options,
                                                           Diagnostics& diagnostics);

@@ -33,8 +33,8 @@ struct OpenOptions {
   std::vector<Selection> selections{};
   /// "PATH.attr=value" in text form of the attribute's type: opinions in the session layer.
   std::vector<std::string> overrides{};
-  /// Where every file is read from that the asset and its layers name: the disk, memory, unsaved
-  /// text over either. Search paths, sandbox and session layer are looked up there as well.
+  /// Source of every file that the asset and its layers name: the disk, memory, unsaved text over
+  /// either. Search paths, sandbox and session layer are looked up there as well.
   bytes::Files files{};
   /// A session layer file; the two options above are written over its opinions, in memory.
   std::string session_path{};

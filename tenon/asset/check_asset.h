@@ -38,7 +38,7 @@ Result<std::vector<EditedFile>> corrected_files(const std::vector<check::Finding
                                                 const bytes::Files& files);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
-/// What cannot be opened, or may not by the options, counts as used by nobody. Errors:
+/// A file that cannot be opened, or may not be by the options, uses no others. Errors:
 /// ErrorCode::NotFound, Io.
 Result<std::vector<std::string>> root_assets(const std::string& path, const OpenOptions& options);
 

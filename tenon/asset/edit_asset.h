@@ -17,10 +17,10 @@
 #include "tenon/scene/fields/scene_difference.h"
 #include "tenon/stage/stage.h"
 
-/// Edits of assets in files: each lands in the file that owns what it changes.
+/// Edits of assets in files: each goes to the file that owns the changed property.
 namespace tenon {
 
-/// What a prim that is made brings in.
+/// The arc of a new prim.
 struct AssetArc {
   bool payload = false;  ///< else a reference
   std::string file;      ///< absolute; the layer names it from its own folder
@@ -52,8 +52,8 @@ struct AssetEdit {
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it; of a prim
   std::string engine{};  ///< its file alone, whatever EditOptions::engine says
   std::string layer{};   ///< this file alone, by its identifier
-  /// Edits of one number are one wish, which has an effect when one of them has; none: a wish of
-  /// its own.
+  /// Edits of one number are one wish, which has an effect when one of them has one; none: a wish
+  /// of its own.
   std::optional<std::size_t> wish{};
 
   std::optional<AssetArc> arc{};
@@ -89,7 +89,7 @@ struct EditedPlace {
   std::vector<std::string> variants;
 };
 
-/// What engines receive otherwise under one variant of "Physics".
+/// What engines receive differently under one variant of "Physics".
 struct PhysicsEffect {
   std::string variant;  ///< empty: there is no such set
   std::vector<scene::SceneDifference> differences;
@@ -100,8 +100,8 @@ struct EditedAsset {
                                        ///< edits in all files one for each file
   std::vector<EditedFile> files;       ///< that differ, sorted by path
   std::vector<PhysicsEffect> physics;  ///< the variant in which the asset opens first
-  /// Edits of the physics that change nothing that engines receive, under no variant. Why is told
-  /// by findings of the rule "edit.no-effect".
+  /// Edits of the physics that change nothing that engines receive, under no variant. Findings of
+  /// the rule "edit.no-effect" say why.
   std::vector<std::size_t> without_effect;
 };
 

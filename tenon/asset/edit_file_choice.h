@@ -33,8 +33,8 @@ struct FileQuestion {
 /// strongest opinion on it. Errors: ErrorCode::NotFound, Invalid, with what can be done.
 Result<FileChoice> choose_file(const FileQuestion& question);
 
-/// The prim that has to be there for an edit: of one that is made the prim above it; an invalid one
-/// where it is not there.
+/// The prim that must exist for an edit: for a new prim its parent; an invalid one where it is
+/// missing.
 stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit);
 
 /// The strongest place where an opinion of `layer` would count for what `edit` is about.

@@ -27,10 +27,9 @@ struct EditRequest {
 };
 
 /// The edits in a fixed order: schemas are removed and applied first, so that the properties that
-/// they declare are known, then typed edits, assignments, and last what is cleared. Errors:
-/// Invalid, what cannot be read, and a request for nothing without an engine, whose file
-/// may have to be made; those of opening the asset, which some
-/// typed edits look at.
+/// they declare are known, then typed edits, assignments, and last clearing. Errors: Invalid for
+/// text that cannot be read, and for an empty request without an engine, whose file may have to be
+/// made; those of opening the asset, which some typed edits look at.
 Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRequest& request,
                                           const EditOptions& options);
 

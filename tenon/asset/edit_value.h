@@ -11,10 +11,10 @@
 #include "tenon/property_value.h"
 #include "tenon/stage/stage.h"
 
-/// What an edit says, held against the schemas. Internal to the wiring.
+/// The value of an edit, checked against the schemas. Internal to the wiring.
 namespace tenon {
 
-/// What the edit sets, read by the type that the property has; what it clears without a value.
+/// The value that the edit sets, read by the property's type; none where it clears.
 Result<PropertyValue> typed_edit(const stage::Prim& prim, const AssetEdit& edit,
                                  const layer::Spec* spec);
 

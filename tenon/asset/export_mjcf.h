@@ -15,7 +15,7 @@ namespace tenon {
 
 struct ExportedMjcf {
   std::string text;
-  std::map<std::string, std::string> images;  ///< name as the text has it -> bytes
+  std::map<std::string, std::string> images;  ///< name in the text -> bytes
 };
 
 /// A physics scene, read from `stage`, in MuJoCo's own format, with its visuals

@@ -13,7 +13,7 @@ namespace tenon {
 
 struct ExportedUrdf {
   std::string text;
-  std::map<std::string, std::string> meshes;  ///< name as the text has it -> OBJ [m]
+  std::map<std::string, std::string> meshes;  ///< name in the text -> OBJ [m]
   std::size_t links = 0;
   std::size_t joints = 0;
 };

@@ -7,9 +7,9 @@
 
 namespace tenon {
 
-/// For edits of files: repeats `work`, which gives a Result, as long as it ends because somebody
-/// else has changed what was read, so that no edit is lost. What a vain attempt has added to
-/// `diagnostics` is taken back.
+/// For edits of files: repeats `work`, which gives a Result, as long as it fails because somebody
+/// else has changed a file that was read, so that no edit is lost. Findings of a failed attempt are
+/// removed from `diagnostics`.
 template <class Work>
 auto repeat_edit(Diagnostics& diagnostics, Work work) {
   constexpr int kAttempts = 100;

@@ -24,12 +24,12 @@ Result<std::vector<AssetEdit>> material_edits(const std::string& text);
 /// the one that is driven: "JOINT:rotX=...".
 Result<std::vector<AssetEdit>> drive_edits(const stage::Stage& stage, const std::string& text);
 /// "FOLLOWER=LEADER,MULTIPLIER[,OFFSET]": q = offset + multiplier * leader, offset in degrees or
-/// units of length. As NewtonMimicAPI, which every engine is to read; for the engine "physx" as
-/// PhysxMimicJointAPI, whose signs are the other way round.
+/// units of length. As NewtonMimicAPI, which every engine must read; for the engine "physx" as
+/// PhysxMimicJointAPI, which has the opposite signs.
 Result<std::vector<AssetEdit>> mimic_edits(const std::string& text, const std::string& engine);
 
-/// "A,B": the two, and what is below them, do not touch each other. A gets PhysicsFilteredPairsAPI
-/// with B among its pairs.
+/// "A,B": the two and their descendants never collide. A gets PhysicsFilteredPairsAPI with B among
+/// its pairs.
 Result<std::vector<AssetEdit>> filter_edits(const std::string& text);
 
 }  // namespace tenon

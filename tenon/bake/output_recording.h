@@ -27,8 +27,8 @@ struct OutputSeries {
   std::size_t width() const { return labels.size(); }
 };
 
-/// What was asked for beside states: of each frame that of the step in which it lies, of the first
-/// one what acts before any step.
+/// Requested outputs beside states: for each frame those of its step, for the first one what acts
+/// before any step.
 struct OutputRecording {
   std::vector<OutputSeries> series;
   bool has_sensors = false;

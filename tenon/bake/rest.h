@@ -10,8 +10,7 @@
 
 namespace tenon::bake {
 
-/// When bodies are said to rest: all of them that are not kinematic are slower than both bounds for
-/// a while.
+/// When bodies rest: all of them that are not kinematic are slower than both bounds for a while.
 struct RestRule {
   double linear_speed = 1e-3;       ///< [m/s]
   double angular_speed = kRadians;  ///< [rad/s]; one degree per second
@@ -21,12 +20,12 @@ struct RestRule {
 /// Looks at a simulation after each of its steps.
 class RestWatch {
  public:
-  /// All that it is made of must outlive it.
+  /// Its arguments must outlive it.
   RestWatch(const engines::Simulation& simulation, const scene::PhysicsScene& scene,
             const RestRule& rule)
       : simulation_(simulation), scene_(scene), rule_(rule) {}
 
-  /// The time since when everything rests [s], once it has for as long as the rule asks.
+  /// The time since when everything rests [s], once it has for the time of the rule.
   std::optional<double> look();
 
  private:

@@ -19,7 +19,7 @@ struct RunOptions {
   double frames_per_second = 60;  ///< of the recording; 0: record nothing
   /// Recorded beside states, of those that the simulation has; none given: all of these.
   std::optional<engines::Outputs> outputs{};
-  /// Called now and then with the simulated time; false stops the run. May be empty.
+  /// Called regularly with the simulated time; false stops the run. May be empty.
   Function<bool(double seconds)> go_on;
   const Commands* commands = nullptr;  ///< given as their time comes
   std::optional<RestRule>

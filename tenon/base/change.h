@@ -7,7 +7,7 @@
 
 namespace tenon {
 
-/// What became of a thing between two versions.
+/// The change of an object between two versions.
 enum class Change : std::uint8_t { Added, Removed, Changed };
 
 /// "added", "removed", "changed".

@@ -13,7 +13,7 @@ template <class Signature>
 class Function;
 
 /// Anything that can be called with these arguments, or nothing. Copies share what they call. For
-/// headers: `<functional>` is ten thousand lines, which everybody who includes one would read.
+/// headers: `<functional>` is ten thousand lines, which every includer would parse.
 template <class Answer, class... Arguments>
 class Function<Answer(Arguments...)> {
  public:

@@ -11,8 +11,8 @@
 #include "tenon/base/function.h"
 #include "tenon/base/result.h"
 
-/// Pages that a local Chromium draws without a window, for pictures and films. It is told what to
-/// do over a pair of sockets (its DevTools protocol); nothing goes through a network.
+/// Pages that a local Chromium draws without a window, for pictures and films. It is controlled
+/// over a pair of sockets (its DevTools protocol); nothing goes through a network.
 namespace tenon::browser {
 
 struct BrowserOptions {
@@ -28,11 +28,11 @@ struct BrowserOptions {
 /// how to get one ("browser.missing").
 Result<std::string> find_browser(const std::string& named);
 
-/// A page in a browser of its own, whose profile is a temporary folder. It gets nothing but its own
-/// text: whatever else it asks for is refused and noted in messages(). Errors of all functions:
-/// Missing where the browser cannot be started ("browser.missing", "browser.sandbox"), Io where it
-/// ends ("browser.ended"), is silent for too long ("browser.silent") or says what no browser says
-/// ("browser.protocol"), Limit for what is too large, Invalid after an interrupt.
+/// A page in a browser of its own, whose profile is a temporary folder. It gets only its own text:
+/// other requests are refused and noted in messages(). Errors of all functions: Missing where the
+/// browser cannot be started ("browser.missing", "browser.sandbox"), Io where it ends
+/// ("browser.ended"), is silent for too long ("browser.silent") or breaks its protocol
+/// ("browser.protocol"), Limit for data that is too large, Invalid after an interrupt.
 class BrowserPage {
  public:
   /// Starts the browser and shows `html`, `width` by `height` pixels.
@@ -51,7 +51,7 @@ class BrowserPage {
   /// What the window shows, a PNG.
   Result<std::string> screenshot();
 
-  /// What the page has said on its console, threw or was refused, as far as it is known.
+  /// Messages of the page's console, its exceptions and refused requests, as far as known.
   const std::vector<std::string>& messages() const;
   /// BrowserOptions::go_on has ended the work.
   bool interrupted() const;

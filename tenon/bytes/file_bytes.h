@@ -52,8 +52,8 @@ class FileBytes {
   }
   std::size_t size() const { return span_.size(); }
 
-  /// A part of these bytes will hardly be looked at again: where it was mapped, its memory goes
-  /// back to the system, and comes from the file again when it is.
+  /// A part of these bytes will hardly be used again: where it was mapped, its memory goes back to
+  /// the system, and is read from the file again when needed.
   void let_go(std::span<const std::byte> part) const;
 
  private:

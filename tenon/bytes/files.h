@@ -63,7 +63,7 @@ class Files {
   Files();
   /// A source of your own; not null.
   explicit Files(std::shared_ptr<const FileSource> source) : source_(std::move(source)) {}
-  /// These files and no other: what is not among them is not looked for on the disk.
+  /// Only these files: others are not looked for on the disk.
   static Files in_memory(FileMap files) { return nothing().with(std::move(files)); }
   /// These files over those of this source, such as text that an editor has not saved. Each stands
   /// for the file that its path leads to, so it is found under all names of that.

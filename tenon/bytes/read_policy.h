@@ -10,9 +10,9 @@
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/files.h"
 
-/// What an asset may have read on its behalf (docs/reading.md). An asset comes from somebody else
-/// and names files at will; what it names goes into an output only from folders that belong to it,
-/// or that a person named.
+/// The files that may be read for an asset (docs/reading.md). An asset comes from somebody else and
+/// names any files; they go into an output only from folders that belong to it, or that a person
+/// named.
 namespace tenon::bytes {
 
 /// The rule of an error about a file outside of the folders.
@@ -29,7 +29,7 @@ class ReadPolicy {
   /// A folder, or a single file; relative ones are taken from the working directory. What does not
   /// exist adds nothing.
   void add(const std::string& folder);
-  /// From now on what is found on the way adds nothing: a person said which folders there are.
+  /// From now on folders found while reading add nothing: a person named the folders.
   void close() { is_closed_ = true; }
   bool is_closed() const { return is_closed_; }
   /// A folder that was found to belong to the asset, while it reads.

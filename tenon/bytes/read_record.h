@@ -19,7 +19,7 @@ namespace tenon::bytes {
 /// Which file it is, whatever its names are: links, other spellings and mounts lead to the same.
 using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;  // device, inode
 
-/// What a file was when somebody looked at it.
+/// The state of a file when it was read.
 struct FileStamp {
   FileIdentity identity;
   std::int64_t size = 0;
@@ -71,7 +71,7 @@ class ReadRecord {
   bool has(const FileIdentity& file) const;
   /// As they were opened, sorted.
   std::vector<std::string> paths() const;
-  /// What was asked for and not had, sorted; the first 10,000 of them.
+  /// Requested files that were missing, sorted; the first 10,000 of them.
   std::vector<std::string> missing() const;
   /// Error with rule "file.changed" when a file that was read is no longer what it was then. Files
   /// in `by_content` are read again to know.
@@ -91,7 +91,7 @@ class ReadRecord {
 /// Notes a file that a library opens by itself. Nothing happens where no record is installed.
 void note_read(const std::string& path);
 
-/// Notes what was asked for and is not there. Nothing happens where no record is installed.
+/// Notes a requested file that is missing. Nothing happens where no record is installed.
 void note_missing(const std::string& path);
 
 /// True for the Error of a file that was changed by somebody else since it was read: the caller can

@@ -9,7 +9,7 @@
 #include "tenon/edit/list_edit.h"
 #include "tenon/layer/lists/list_op.h"
 
-/// What edits of list edits make of an opinion.
+/// Applies edits of list edits to an opinion.
 namespace tenon::edit {
 
 /// Which of the lists of an opinion.

@@ -29,8 +29,8 @@ class LayerEditor;
 struct FoundPrim;
 
 /// Authoring on a composed scene. Layers are values: the editor changes copies of its own, no file
-/// and no layer that somebody else holds. What an edit authors is what OpenUSD's UsdStage, UsdPrim
-/// and so on author for the same call.
+/// and no layer of another owner. Edits author the same opinions as OpenUSD's UsdStage, UsdPrim and
+/// so on for the same call.
 ///
 /// Every edit goes to the edit target, does all or nothing, and is a step of the undo history.
 /// Paths are those of the stage, absolute; times are stage times. Errors: ErrorCode::Invalid for
@@ -52,8 +52,8 @@ class StageEditor {
   StageEditor& operator=(StageEditor&&) noexcept;
   ~StageEditor();
 
-  /// The scene with all edits so far. Composed when asked for; what was handed out before stays as
-  /// it was.
+  /// The scene with all edits so far. Composed when asked for; stages returned before stay as they
+  /// were.
   Result<std::shared_ptr<const stage::Stage>> stage();
   /// What changed between the stages of the last two `stage()` calls with edits between them.
   const ChangeNotice& notice();

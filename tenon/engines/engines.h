@@ -19,13 +19,13 @@ struct EngineInfo {
   std::string version;  ///< of the library in use; empty when it is not available
   bool available = false;
   std::string how_to_get;  ///< one sentence, when it is not available
-  /// Where making a model takes a time that grows with the square of the number of bodies: that
+  /// Where building a model takes time that grows with the square of the number of bodies: that
   /// time by the square, on the machine of the benchmarks [s]; 0: it does not.
   double set_up_per_pair = 0;
 };
 
-/// What the adapter of one engine offers. The wiring (tenon/tenon.cpp) makes the table of those
-/// that are built in; this folder knows none of them.
+/// What the adapter of one engine offers. The wiring (tenon/make_simulation.cpp) makes the table of
+/// those that are built in; this folder knows none of them.
 struct Engine {
   EngineInfo (*info)() = nullptr;
   Result<std::unique_ptr<Simulation>> (*make)(const scene::PhysicsScene& scene,

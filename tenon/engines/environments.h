@@ -19,9 +19,9 @@ struct EnvironmentOptions {
   SimulationOptions simulation{};
 };
 
-/// Many simulations of one scene, apart from each other. Each can be given values of its own (mass,
-/// friction, gains, gravity, states) as a World; those that share a value share its memory where
-/// the engine can. What comes out does not depend on the number of threads.
+/// Many independent simulations of one scene. Each can be given values of its own (mass, friction,
+/// gains, gravity, states) as a World; those that share a value share its memory where the engine
+/// can. The results do not depend on the number of threads.
 class Environments {
  public:
   /// `scene` must outlive them. Errors: Limit for more than limits::kEnvironments; those of making
@@ -39,11 +39,11 @@ class Environments {
   World& operator[](std::size_t i) { return worlds_[i]; }
   const World& operator[](std::size_t i) const { return worlds_[i]; }
 
-  /// Steps all of them, side by side. Those that fail stand still from then on; gives how many.
+  /// Steps all of them, side by side. Those that fail stop for good; returns how many.
   std::size_t step(std::size_t count = 1);
-  /// Why an environment stands still; nullptr while it does not.
+  /// Why an environment stopped; nullptr while it runs.
   const Error* failure(std::size_t i) const;
-  /// Brings one back to the start, and to life.
+  /// Resets one to the start; it runs again.
   Result<void> reset(std::size_t i);
 
   /// Coordinates of all joints, joint by joint, and how many an environment has.

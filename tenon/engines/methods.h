@@ -41,7 +41,7 @@ std::string_view solver_name(ConstraintSolver solver);
 /// Those that can be asked for.
 std::vector<std::string> integrator_names();
 std::vector<std::string> solver_names();
-/// No value where nothing is called so; "" is Default.
+/// No value for an unknown name; "" is Default.
 std::optional<Integrator> integrator_named(std::string_view name);
 std::optional<ConstraintSolver> solver_named(std::string_view name);
 

@@ -25,7 +25,7 @@ Error output_off(std::string_view output);
 /// engine.no-ability) where the engine has no such ability, Invalid (rule simulation.argument)
 /// where an index, a count or a number cannot be used. Values that are set hold until they are set
 /// again or until reset(), and win over time samples of the asset.
-class Simulation {  // all functions inline: who derives needs no type information of the library
+class Simulation {  // all functions inline: derived classes need no type information of the library
  public:
   Simulation() = default;
   Simulation(const Simulation&) = delete;
@@ -53,10 +53,10 @@ class Simulation {  // all functions inline: who derives needs no type informati
   /// Gravity of one scene as it is now, world axes [m/s^2].
   virtual Vec3d gravity(scene::Index scene) const = 0;
 
-  /// What the engine offers of the rest.
+  /// The optional abilities of the engine.
   virtual bool can(Ability ability) const = 0;
   virtual EngineObjects engine_objects() const = 0;
-  /// What was switched on when the simulation was made.
+  /// The outputs that were switched on when the simulation was made.
   virtual const Outputs& outputs() const = 0;
 
   // ---- control

@@ -14,8 +14,8 @@
 #include "tenon/scene/body_state.h"
 #include "tenon/scene/physics_scene.h"
 
-/// What goes into simulations and comes out of them, as values that know no engine. Metres,
-/// kilograms, seconds, radians; world axes unless another frame is named.
+/// Inputs and outputs of simulations, as values that know no engine. Metres, kilograms, seconds,
+/// radians; world axes unless another frame is named.
 namespace tenon::engines {
 
 using BodyState = scene::BodyState;
@@ -26,7 +26,7 @@ struct JointState {
   std::vector<double> velocity;
 };
 
-/// Something that the engine cannot express; the simulation went on without it.
+/// A property that the engine does not support; the simulation went on without it.
 using NotMapped = scene::NotRead;
 
 enum class EventKind : std::uint8_t {
@@ -49,7 +49,7 @@ struct Energy {
   double total() const { return kinetic + potential; }
 };
 
-/// What an engine may or may not offer beside stepping and reading of states.
+/// Optional abilities of an engine, beside stepping and reading of states.
 enum class Ability : std::uint8_t {
   DriveTargets,    ///< set_drive_target
   JointEfforts,    ///< set_joint_efforts
@@ -96,7 +96,7 @@ struct SimulationOptions {
   Methods methods{};
 };
 
-/// What a drive is to reach.
+/// The target of a drive.
 struct DriveTarget {
   double position = 0;  ///< [m or rad]
   double velocity = 0;  ///< [m/s or rad/s]

@@ -18,7 +18,7 @@
 
 namespace tenon::formats {
 
-/// Told by the first bytes, never by the name; what is neither crate nor zip is text.
+/// Detected by the first bytes, never by the name; neither crate nor zip means text.
 LayerFormat format_of(const bytes::FileBytes& bytes);
 
 /// What a layer is read from: the root layer of a package, else the bytes themselves.

@@ -40,8 +40,8 @@ class Layer {
   void set_identifier(std::string identifier) { identifier_ = std::move(identifier); }
 
   /// True where something comes from a binary form or from a foreign format. Those can hold what
-  /// the text form has no words for: fields and types whose names are none, values of another type
-  /// than declared, bytes that are not UTF-8. Its text is read back before it is given out.
+  /// the text form does not support: fields and types with invalid names, values of another type
+  /// than declared, bytes that are not UTF-8. Its text is read back before it is returned.
   bool may_lack_text() const { return may_lack_text_; }
   void set_may_lack_text() { may_lack_text_ = true; }
 

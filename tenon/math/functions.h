@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// What `<cmath>` and `<limits>` have, for headers: those two are seven thousand lines, which
-/// everybody who includes one would read. Source files include them.
+/// Parts of `<cmath>` and `<limits>`, for headers: those two are seven thousand lines, which every
+/// includer would parse. Source files include them.
 namespace tenon {
 
 inline constexpr double kInfinity = __builtin_huge_val();

@@ -40,7 +40,7 @@ struct MetricInfo {
 /// All metrics, in the order of Metric.
 const std::vector<MetricInfo>& metrics();
 const MetricInfo& info_of(Metric metric);
-/// No value where nothing is called so.
+/// No value for an unknown name.
 std::optional<Metric> metric_named(std::string_view name);
 
 /// One number of a metric that two motions have differently.
@@ -50,7 +50,7 @@ struct Gap {
   double largest = 0;  ///< SI, like all below
   double time = 0;     ///< [s] of the largest
   double mean = 0;     ///< over time, of the object with the largest gap
-  std::vector<double> first;   ///< what the one motion has at that moment
+  std::vector<double> first;   ///< the one motion's value at that moment
   std::vector<double> second;  ///< and the other
 };
 

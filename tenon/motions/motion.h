@@ -22,7 +22,7 @@ using MakeSimulation = Function<Result<std::unique_ptr<engines::Simulation>>(
     const std::string& engine, const scene::PhysicsScene& scene,
     const engines::SimulationOptions& options, Diagnostics& diagnostics)>;
 
-/// What one engine is to simulate.
+/// The simulation of one engine.
 struct Setup {
   std::string name;  ///< for people, where engines are not told apart by theirs
   std::string engine;
@@ -30,7 +30,7 @@ struct Setup {
   engines::SimulationOptions options{};
 };
 
-/// What is done with every engine alike.
+/// Options that are the same for every engine.
 struct MotionPlan {
   MakeSimulation make;
   double duration = 5;  ///< [s]
@@ -43,7 +43,7 @@ struct MotionPlan {
   Function<bool(double seconds)> go_on;
 };
 
-/// What came of it.
+/// The result.
 struct Motion {
   bake::Run run;
   double time_step = 0;       ///< [s]

@@ -12,8 +12,8 @@
 #include "tenon/base/path.h"
 #include "tenon/motions/motion.h"
 
-/// Why two motions differ. Each possible cause is taken away in a trial, and what the distance of
-/// the motions loses is its share.
+/// Why two motions differ. A trial removes each possible cause; the reduction of the distance
+/// between the motions is its share.
 namespace tenon::motions {
 
 enum class ReasonKind : std::uint8_t {
@@ -32,8 +32,8 @@ struct Reason {
   std::string what;           ///< a clause
   std::string property;       ///< as the engine or the tables of the scene call it
   std::vector<Path> objects;  ///< where they have paths
-  /// Of the distance, what goes when this is taken away: 1 is all, 0 nothing; none: it could not be
-  /// taken away, or the trial failed.
+  /// The share of the distance that goes when this is removed: 1 is all, 0 nothing; none: it could
+  /// not be removed, or the trial failed.
   std::optional<double> share;
 };
 

@@ -14,7 +14,7 @@
 #include "tenon/physics/scene_names.h"
 #include "tenon/scene/physics_scene.h"
 
-/// What a reading decided on the way, for those who ask "why": filled when asked for.
+/// The decisions of a reading, to answer "why": filled on request.
 namespace tenon::physics {
 
 enum class MassQuantity : std::uint8_t { Mass, Density, CenterOfMass, Inertia };
@@ -30,7 +30,7 @@ struct MassCandidate {
   std::string value;      ///< SI, with its unit
   const char* rule = "";  ///< number of the rule of reading, "S-39"
   bool used = false;
-  std::string why;  ///< it counts or not, a clause
+  std::string why;  ///< why it counts or not, a clause
 };
 
 /// What one collider gives to its body.

@@ -10,7 +10,7 @@
 #include "tenon/base/result.h"
 
 /// Where the proposal, OpenUSD and engines read one file differently: the first enumerator of each
-/// is what tenon does unasked, the others are the readings that it can be asked for.
+/// is tenon's default, the others can be selected.
 namespace tenon::physics {
 
 enum class VelocitySpace : std::uint8_t { Parent, Body, World };       ///< S-30

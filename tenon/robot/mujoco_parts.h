@@ -13,7 +13,7 @@
 /// What MuJoCo's models have beside the tree, in MuJoCo's words and units (SI, radians).
 namespace tenon::robot {
 
-/// A value that MuJoCo's schema has a name for: what stands after "mjc:" ("option:iterations").
+/// A value with a name in MuJoCo's schema: the part after "mjc:" ("option:iterations").
 struct MujocoSetting {
   std::string name;
   std::vector<double> numbers;  ///< one for each component; flags 0 or 1
@@ -100,8 +100,8 @@ struct MujocoVolume {
   std::array<double, 3> size{};  ///< as MuJoCo counts it for the type [m]
 };
 
-/// What one of MuJoCo's sensors is of: MuJoCo's word for its kind ("site", "xbody", "geom") and its
-/// name in the description. Both empty: nothing.
+/// The object of one of MuJoCo's sensors: MuJoCo's word for its kind ("site", "xbody", "geom") and
+/// its name in the description. Both empty: nothing.
 struct MujocoThing {
   std::string kind;
   std::string name;

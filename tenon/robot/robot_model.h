@@ -18,9 +18,9 @@
 #include "tenon/robot/mujoco_parts.h"
 #include "tenon/robot/site_sensor.h"
 
-/// A robot as its description says, before it is a scene: what readers of robot formats make and
-/// writers take. Plain structs in metres, kilograms, seconds and radians; knows no format, no USD
-/// and no engine. Things refer to each other by index.
+/// A robot as described, before it is a scene: the output of readers of robot formats and the input
+/// of writers. Plain structs in metres, kilograms, seconds and radians; knows no format, no USD and
+/// no engine. Objects refer to each other by index.
 namespace tenon::robot {
 
 using Index = std::uint32_t;
@@ -181,7 +181,7 @@ struct Limit {
   double upper = 0;
 };
 
-/// Bounds that a controller is to keep (URDF's safety_controller) [rad or m, SI gains].
+/// Bounds that a controller must keep (URDF's safety_controller) [rad or m, SI gains].
 struct Safety {
   std::optional<double> soft_lower;
   std::optional<double> soft_upper;
@@ -249,7 +249,7 @@ struct Joint {
   Motion motion() const { return kind == JointKind::Prismatic ? Motion::Linear : Motion::Angular; }
 };
 
-/// What holds two links together beside the tree, and so closes a loop.
+/// A joint between two links beside the tree, which closes a loop.
 struct LoopJoint {
   std::string name;
   JointKind kind = JointKind::Ball;  ///< Ball: one point of each coincides; Fixed

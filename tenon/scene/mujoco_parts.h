@@ -12,7 +12,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/scene/vendor_setting.h"
 
-/// What MuJoCo's schemas say that has no neutral meaning, for engines that have it.
+/// Properties of MuJoCo's schemas without a neutral meaning, for engines that support them.
 namespace tenon::scene {
 
 /// What MjcCollisionAPI says of a collider's contacts; none, empty: not authored.

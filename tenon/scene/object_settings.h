@@ -9,8 +9,8 @@
 #include "tenon/math/functions.h"
 #include "tenon/math/vector.h"
 
-/// Settings of bodies, colliders and drives that UsdPhysics does not have and engines may act on,
-/// each with what it means without one of them.
+/// Settings of bodies, colliders and drives that UsdPhysics does not have and engines may use, each
+/// with its meaning where it is not authored.
 namespace tenon::scene {
 
 /// A constant force and torque on a body.
@@ -34,7 +34,7 @@ struct BodySettings {
   bool solves_contacts = true;  ///< false: its contacts exert nothing
 };
 
-/// What touches the surface is carried along it with this velocity.
+/// Touching bodies are carried along the surface with this velocity.
 struct SurfaceVelocity {
   Vec3d linear;           ///< [m/s]
   Vec3d angular;          ///< about the body's origin [rad/s]
@@ -50,8 +50,8 @@ struct ColliderSettings {
   std::optional<SurfaceVelocity> surface_velocity;
 };
 
-/// What a motor can do at a speed: beside its own maximum the effort is at most
-/// max_force - velocity_resistance |v|, and |v| at most max_velocity - speed_effort_gradient |F|.
+/// The effort of a motor at a speed: beside its own maximum it is at most max_force -
+/// velocity_resistance |v|, and |v| at most max_velocity - speed_effort_gradient |F|.
 struct DriveEnvelope {
   double max_velocity = kInfinity;   ///< [m/s or rad/s]
   double speed_effort_gradient = 0;  ///< [m/s/N or rad/s/(N m)]

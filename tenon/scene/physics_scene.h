@@ -454,7 +454,7 @@ struct NestingState {
   std::vector<std::pair<Index, BodyMass>> masses;
 };
 
-/// What this description could not take over from the stage; never silent.
+/// A property of the stage that this description does not support; never silent.
 struct NotRead {
   Path prim;
   std::string property;

@@ -19,7 +19,7 @@ struct IndexFindings {
 
 /// How prims of the asset at `path` are composed, as compose::dump_indices writes it, layers named
 /// from the folder of the root layer; without prims, of all. Errors: those of open_indices; Invalid
-/// for what is no path.
+/// for an invalid path.
 Result<std::string> dump_index(const std::string& path, const OpenOptions& options,
                                const std::vector<std::string>& prims, IndexFindings findings);
 

@@ -11,7 +11,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 
-/// Scenes made of kinds (kinds.h): new files, what is added, taken away and renamed.
+/// Scenes made of kinds (kinds.h): new files, and prims added, removed and renamed.
 namespace tenon {
 
 struct NewAsset {
@@ -25,14 +25,14 @@ struct NewAsset {
 /// Invalid (edit.bad-name).
 Result<MadeFile> new_asset(const std::string& file, const NewAsset& wanted);
 
-/// What was edited, and the edits that the places count.
+/// The edited asset, and the edits that its places refer to.
 struct AuthoredAsset {
   std::vector<AssetEdit> edits;
   EditedAsset asset;
 };
 
-/// Each edit lands in the file that owns it, is proved, and its effect on the physics is told, as
-/// edit_asset does it. No file is touched. Errors: those of add_edits, remove_edits and edit_asset.
+/// Each edit goes to the file that owns it, is verified, and its effect on the physics is reported,
+/// as in edit_asset. No file is touched. Errors: those of add_edits, remove_edits and edit_asset.
 Result<AuthoredAsset> add_to_asset(const std::string& path, const AuthoringRequest& request,
                                    const EditOptions& options, Diagnostics& diagnostics);
 Result<AuthoredAsset> remove_from_asset(const std::string& path, const AuthoringRequest& request,

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-/// What can be added to an asset and taken away again, as one table: the verbs, their help and
-/// their tests walk it. Names of types, schemas and properties are those of the schema tables, and
-/// a test holds them against these.
+/// What can be added to an asset and removed again, as one table: the commands, their help and
+/// their tests use it. Names of types, schemas and properties are those of the schema tables, which
+/// a test compares.
 namespace tenon {
 
 /// An option of one or more kinds.

@@ -11,10 +11,11 @@
 
 namespace tenon {
 
-/// What a request takes away, as edits. A path alone, or with a kind that makes a prim, is the prim
-/// with all that names it; joints of a body that goes go with it. A kind that is put on a prim
-/// takes its schemas along in every file that applies them, and what these alone declare. Errors:
-/// those of reading requests; NotFound (edit.no-prim, edit.has-none), Invalid (edit.wrong-type).
+/// What a request removes, as edits. A path alone, or with a kind that makes a prim, is the prim
+/// and all references to it; joints of a removed body go with it. A kind that is applied to a prim
+/// removes its schemas in every file that applies them, and properties that only these declare.
+/// Errors: those of reading requests; NotFound (edit.no-prim, edit.has-none), Invalid
+/// (edit.wrong-type).
 Result<std::vector<AssetEdit>> remove_edits(const Stages& stages, const AuthoringRequest& request,
                                             const std::string& engine);
 

@@ -12,8 +12,8 @@
 
 namespace tenon {
 
-/// Findings that are known and are not to be reported again, by rule, file, prim and property, so
-/// that a file may grow above them. Files are relative to the folder of the baseline.
+/// Known findings that are not reported again, by rule, file, prim and property, so that a file may
+/// grow above them. Files are relative to the folder of the baseline.
 class Baseline {
  public:
   static Result<Baseline> read(const std::string& path, const bytes::Files& files);

@@ -30,7 +30,7 @@ struct AssetChecked {
   std::vector<std::string> variants;  ///< of "Physics" that were looked at
 };
 
-/// What came of all assets together.
+/// The result for all assets together.
 struct CheckedAssets {
   std::vector<ReportedFinding> findings;  ///< each once, in the order of the assets
   std::vector<EditedFile> corrected;      ///< each once
@@ -53,7 +53,7 @@ struct FindingCounts {
 };
 FindingCounts count_findings(const std::vector<ReportedFinding>& findings);
 
-/// Errors: NotFound, for what is neither a rule nor a family of rules.
+/// Errors: NotFound, for a name that is neither a rule nor a family of rules.
 Result<void> check_selection(const check::Selection& rules);
 
 }  // namespace tenon

@@ -14,13 +14,13 @@
 
 namespace tenon {
 
-/// A property of a prim that says something else than it did.
+/// A property of a prim whose value changed.
 struct PropertyEdit {
   Path prim;
   std::string property;
 };
 
-/// What cannot be said in the text of a model, and why.
+/// What the text of a model cannot express, and why.
 struct UnpatchedEdit {
   PropertyEdit edit;
   std::string why;
@@ -31,10 +31,10 @@ struct PatchedModel {
   std::vector<UnpatchedEdit> left;  ///< where there is one, the text is of no use
 };
 
-/// The text of a model in MuJoCo's format with `edits` in it, each at the attribute that says it.
-/// The numbers are those of `scene` and `parts`, where it is settled which schema counts, of
-/// cameras and lights those of `seen`, which are called by their paths there; things in the text
-/// are called as `name_of` calls their prims. Error where the text is no XML.
+/// The text of a model in MuJoCo's format with `edits` in it, each at its attribute. The numbers
+/// are those of `scene` and `parts`, where it is settled which schema counts, and for cameras and
+/// lights those of `seen`, which have their paths as names there; elements in the text have the
+/// names that `name_of` gives their prims. Error where the text is not XML.
 Result<PatchedModel> patch_model(const std::string& text, const std::vector<PropertyEdit>& edits,
                                  const scene::PhysicsScene& scene, const scene::MujocoParts& parts,
                                  const robot::RobotModel& seen,

@@ -10,8 +10,8 @@
 namespace tenon {
 
 /// Why an edit changes nothing that engines receive under the variant of `view`, which was read
-/// with the edit in force, and the edit that would; `in_view_alone`: it does under another one.
-/// Severity and rule are left to the caller.
+/// with the edit in force, and the edit that would; `in_view_alone`: it does under another one. The
+/// caller sets severity and rule.
 Diagnostic no_effect_finding(const PhysicsView& view, const AssetEdit& edit, bool in_view_alone);
 
 }  // namespace tenon

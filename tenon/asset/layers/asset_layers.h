@@ -18,7 +18,7 @@
 
 namespace tenon {
 
-/// One layer of an asset and, where it is to change, what it becomes.
+/// One layer of an asset and, where it changes, its new contents.
 struct AssetLayer {
   layer::LayerPtr layer;
   std::shared_ptr<layer::Layer> edited;  ///< null: stays as it is
@@ -26,14 +26,14 @@ struct AssetLayer {
 
 /// All layers that an asset leads to by sublayers, references, payloads and clips, those of
 /// variants that are not selected too, the root layer first; for edits that reach through all of
-/// them. Layers that lie outside of the asset's folders (docs/reading.md) are not among them.
+/// them. Layers outside of the asset's folders (docs/reading.md) are not among them.
 class AssetLayers {
  public:
   static Result<AssetLayers> open(const std::string& path, const OpenOptions& options);
 
   std::vector<AssetLayer>& layers() { return layers_; }
   /// The edited layers in their files; text keeps its layout.
-  /// Errors: Unsupported where one lies in a package.
+  /// Errors: Unsupported where one is in a package.
   Result<MadeFiles> in_place();
   /// The root layer for `output` and, in the folder "<output without its ending>_layers", every
   /// layer that is edited or leads to an edited one; asset paths follow. A folder (names_folder)
@@ -41,12 +41,12 @@ class AssetLayers {
   /// output, for the root layer as text. Errors: Unsupported for "-" where another layer is edited;
   /// Invalid for a folder where a layer of the asset itself would be written over.
   Result<MadeFiles> elsewhere(const std::string& output);
-  /// Every layer that one of them names is among them, so that composing finds none missing either.
-  /// False also where a name has to be composed to be known.
+  /// Whether they include every layer that one of them names, so that composing finds none missing
+  /// either. False also where a name has to be composed to be known.
   bool is_whole() const { return is_whole_; }
-  /// Layers that the asset leads to and that do not belong to it: they stay as they are.
+  /// Layers that the asset uses and that do not belong to it: they stay unchanged.
   const std::set<std::string>& outside() const { return outside_; }
-  /// What the sandbox kept from being opened.
+  /// Files that the sandbox refused to open.
   const Diagnostics& refused() const { return refused_; }
   /// Files whose comments and layout could not be kept.
   const std::vector<std::string>& without_layout() const { return without_layout_; }

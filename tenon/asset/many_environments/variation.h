@@ -12,7 +12,7 @@
 #include "tenon/engines/world.h"
 #include "tenon/scene/physics_scene.h"
 
-/// What environments of one scene have of their own.
+/// Values that differ between environments of one scene.
 namespace tenon {
 
 /// Where a variation acts.
@@ -49,8 +49,8 @@ double draw(std::uint64_t seed, std::size_t environment, std::size_t variation, 
 std::vector<double> drawn(const Variation& variation, std::uint64_t seed, std::size_t environment,
                           std::size_t number);
 
-/// Gives a world the numbers of a variation that needs no other model. Errors: those of World;
-/// NotFound (vary.no-object) where nothing has it.
+/// Applies to a world a variation that needs no other model. Errors: those of World; NotFound
+/// (vary.no-object) where nothing has it.
 Result<void> vary_world(const Variation& variation, const std::vector<double>& numbers,
                         const scene::PhysicsScene& scene, engines::World& world);
 

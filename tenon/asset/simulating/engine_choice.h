@@ -9,12 +9,12 @@
 
 namespace tenon {
 
-/// What runs where nobody names an engine, and what others are compared with.
+/// The default engine of a run, and the one that others are compared with.
 inline constexpr const char* kUsualEngine = "mujoco";
 
-/// The engine that an asset is to run on: the one that is asked for, else the one that the selected
-/// variants of the variant sets "Physics" name: "physx" is PhysX, every other one MuJoCo. Where
-/// that is not part of this build, or variants name several, it is MuJoCo, with a warning (rules
+/// The engine that an asset runs on: the requested one, else the one that the selected variants of
+/// the variant sets "Physics" name: "physx" is PhysX, every other one MuJoCo. Where that is not
+/// part of this build, or variants name several, it is MuJoCo, with a warning (rules
 /// sim.engine-fallback, sim.engines-mixed).
 std::string choose_engine(const std::string& asked, const stage::Stage& stage,
                           Diagnostics& diagnostics);

@@ -18,7 +18,7 @@
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
-/// A run as a value: an asset, what to do with it, and what came of it.
+/// A run as a value: an asset, the options of the run, and its result.
 namespace tenon {
 
 /// Callbacks during the run; each may be empty.
@@ -27,7 +27,7 @@ struct SimulationListener {
   /// A finding about work that will take long, before it begins; without it, it comes with the
   /// others.
   Function<void(const Diagnostic& finding)> announce;
-  /// Now and then, with the simulated time and that of the whole run [s]; false stops it.
+  /// Called regularly, with the simulated time and that of the whole run [s]; false stops it.
   Function<bool(double seconds, double duration)> go_on;
 };
 

@@ -12,7 +12,7 @@
 #include "tenon/structure/package.h"
 #include "tenon/structure/written_note.h"
 
-/// What an asset was like when it was made, beside it: by it a later run tells edits from changes
+/// The state of an asset when it was made, next to it: with it a later run tells edits from changes
 /// of the source. A zip archive with the digests of all files, and each layer in binary form
 /// without its long arrays, of which it holds digests.
 namespace tenon {

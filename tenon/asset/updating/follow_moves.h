@@ -10,9 +10,9 @@
 
 namespace tenon {
 
-/// Old path -> new path of prims that stand elsewhere in the new layers, as links do when one is
-/// put between: what is gone and what is new with the same name and type, where only one of each
-/// is. What goes along with a prim above it is not named.
+/// Old path -> new path of prims that moved in the new layers, as links do when one is inserted: a
+/// removed and a new prim with the same name and type, where there is only one of each. Descendants
+/// that move along are not listed.
 std::map<Path, Path> moved_prims(const std::vector<const layer::Layer*>& before,
                                  const std::vector<const layer::Layer*>& after);
 

@@ -33,13 +33,13 @@ struct UpdatedAsset {
   std::size_t changes = 0;     ///< those that become what the source says now
 };
 
-/// The asset in `folder`, whose files are read, with what changed between the conversion that made
-/// it and `made`, the new one with its layers stored. Edits stay: base is the copy of what was made
-/// (base_copy.h), or the asset itself where its note says that nobody edited it. Where both changed
-/// the same thing, `keep` decides, and a finding of the rule "update.conflict" names it. Where the
-/// source says what it said nothing differs, and no file is in the answer. No file is touched.
-/// Errors: NotFound "update.nothing" where there is no such asset; Invalid "update.no-base" where
-/// it was edited and nothing tells what it was; those of reading.
+/// The asset in `folder`, whose files are read, with the differences between the conversion that
+/// made it and `made`, the new one with its layers stored. Edits stay: their base is the copy of
+/// the former output (base_copy.h), or the asset itself where its note says that it is unedited.
+/// Where both changed the same thing, `keep` decides, and a finding of the rule "update.conflict"
+/// names it. Where the source is unchanged nothing differs, and no file is in the answer. No file
+/// is touched. Errors: NotFound "update.nothing" where there is no such asset; Invalid
+/// "update.no-base" where it was edited and its former state is unknown; those of reading.
 Result<UpdatedAsset> update_asset(const structure::Package& made, const std::string& folder,
                                   diff::Side keep, Diagnostics& diagnostics);
 

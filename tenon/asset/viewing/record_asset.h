@@ -62,10 +62,10 @@ struct RecordedAsset {
 /// Names for RecordOptions::show and RecordOptions::hide, as the page has them.
 const std::vector<std::string>& record_layers();
 
-/// A picture or a film of the asset at `path`, drawn by a local Chromium: frame by frame, whatever
-/// time that takes, the same picture at every run. Errors: Missing without a page, a browser,
-/// WebGL or a codec (what there is instead is said); those of simulate_asset, view::find_camera,
-/// glb::write_glb and browser::BrowserPage; Invalid for options that cannot be together.
+/// A picture or a film of the asset at `path`, drawn by a local Chromium: frame by frame, however
+/// long that takes, the same picture in every run. Errors: Missing without a page, a browser, WebGL
+/// or a codec (with the alternatives); those of simulate_asset, view::find_camera, glb::write_glb
+/// and browser::BrowserPage; Invalid for options that exclude each other.
 Result<RecordedAsset> record_asset(const std::string& path, const RecordOptions& options,
                                    Diagnostics& diagnostics);
 

@@ -14,7 +14,7 @@
 #include "tenon/stage/stage.h"
 #include "tenon/view/view_scene.h"
 
-/// What one sees of an asset, and files that show it.
+/// The visuals of an asset, and files that show it.
 namespace tenon {
 
 /// The visuals of the asset at `path`, which is open as `stage` by `open` and read as `scene`.
@@ -28,11 +28,11 @@ view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsSce
 Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
 
-/// What could not be shown, as findings "view.left-out"; of the same kind the first one and how
-/// many there are.
+/// What could not be shown, as findings "view.left-out"; of each kind the first one and their
+/// number.
 void report_notes(const view::ViewScene& view, Diagnostics& diagnostics);
 
-/// What is drawn of an asset, and its run.
+/// The drawn parts of an asset, and its run.
 struct DrawnAsset {
   view::ViewScene view;
   std::size_t triangles = 0;   ///< that are drawn

@@ -13,7 +13,7 @@
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
 
-/// What drives and joints are told over time.
+/// Commands to drives and joints over time.
 namespace tenon::bake {
 
 enum class CommandKind : std::uint8_t {
@@ -42,7 +42,7 @@ Result<Commands> read_commands(std::shared_ptr<const bytes::FileBytes> file,
                                const scene::PhysicsScene& scene,
                                const engines::Simulation& simulation);
 
-/// Gives commands to a simulation as its time goes on. All that it is made of must outlive it.
+/// Gives commands to a simulation as its time goes on. Its arguments must outlive it.
 class CommandPlayer {
  public:
   CommandPlayer(const Commands& commands, const scene::PhysicsScene& scene,
@@ -51,7 +51,7 @@ class CommandPlayer {
   /// To be called before each step: rows whose time has come take effect. Errors: those of the
   /// simulation.
   Result<void> advance();
-  /// All rows have had their time.
+  /// All rows have taken effect.
   bool is_done() const { return row_ == commands_.times.size(); }
 
  private:

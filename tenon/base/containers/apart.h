@@ -7,8 +7,9 @@
 
 namespace tenon {
 
-/// A value that may be there, in memory of its own: for what is large and what few of many have, of
-/// which std::optional keeps room in all of them. It is used like one, and copies are its own.
+/// A value that may be absent, in memory of its own: for large values that few of many objects
+/// have, for which std::optional would reserve room in all of them. It is used like one, and copies
+/// own their value.
 template <class T>
 class Apart {
  public:

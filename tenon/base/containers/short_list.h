@@ -11,9 +11,9 @@
 
 namespace tenon {
 
-/// A list for the while of a function: up to `kWithin` elements lie within it, longer ones in
-/// memory of their own. Walks over paths and over what is composed of a prim take a few steps, and
-/// many are taken for each prim: an allocation for each is most of what they would cost.
+/// A list for the duration of a function: up to `kWithin` elements are inline, more are in memory
+/// of their own. Walks over paths and over composed prims take a few steps, and many are taken for
+/// each prim: an allocation for each would be most of their cost.
 template <class T, std::size_t kWithin>
 class ShortList {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -10,7 +10,7 @@
 
 namespace tenon::diff {
 
-/// Who is right where an edit and a new version of the source say different things.
+/// Which side wins where an edit and a new version of the source differ.
 enum class Side : std::uint8_t { Edits, Source };
 
 /// What both changed, each in another way. Empty values are not there.

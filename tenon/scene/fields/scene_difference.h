@@ -42,9 +42,8 @@ struct CompareOptions {
   double smallest_size = 1;
   std::size_t max_differences = static_cast<std::size_t>(-1);  ///< it ends there
 
-  /// Two scenes that shall move alike are compared: by the tolerance of each field, without
-  /// provenance, materials and scenes by what they say and not by where they are. Schemas of one
-  /// mimic may differ.
+  /// For two scenes that should move alike: by the tolerance of each field, without provenance,
+  /// materials and scenes by content and not by path. Schemas of one mimic may differ.
   bool motion_alone = false;
   /// Where a collider of `before` is in `after`; none: where it was.
   Function<Path(Path)> moved = {};
