@@ -40,7 +40,7 @@ void name_outside_layer(const std::string& layer, const std::string& asset,
   diagnostics.add(file_finding(
       Severity::Warning, kOutsideLayerRule,
       "the layer @" + layer +
-          "@ lies outside of the folders of the asset; what it says goes into "
+          "@ is outside of the folders of the asset; what it says goes into "
           "the result",
       asset, 0,
       "give --sandbox with the folders that may be read to keep it out, or --allow-read " +

@@ -182,7 +182,7 @@ Result<PropertyAssignment> read_assignment(const std::string& text) {
 
 Error not_a_list(Path property) {
   return Error(ErrorCode::Invalid,
-               "<" + property.str() + "> is no relationship: += and -= are for lists of targets")
+               "<" + property.str() + "> is not a relationship: += and -= are for lists of targets")
       .with_prim(property.prim().str())
       .with_rule("edit.type-mismatch")
       .with_fix("write the whole value: =VALUE");

@@ -91,7 +91,7 @@ class Reader {
 
   void object(const Parsed& json, DataRef value, const std::string& at) {
     if (!json.is_object()) {
-      fault(at, "is no object");
+      fault(at, "is not an object");
       return;
     }
     for (const DataField& of : value.type->fields) {
@@ -170,7 +170,7 @@ class Reader {
         break;
       case DataKind::Text:
         json.is_string() ? void(value.as<std::string>() = json.get<std::string>())
-                         : fault(at, "is no text");
+                         : fault(at, "is not a string");
         break;
       case DataKind::Path:
         path(json, value.as<Path>(), at);
@@ -194,9 +194,9 @@ class Reader {
     if (auto* all = value.get_if<std::vector<scene::VendorSetting>>()) {
       settings(json, *all, at);
     } else if (value.kind() == DataKind::Pose) {
-      json.is_object() ? pose(json, value, at) : fault(at, "is no object");
+      json.is_object() ? pose(json, value, at) : fault(at, "is not an object");
     } else if (!json.is_array()) {
-      fault(at, "is no array");
+      fault(at, "is not an array");
     } else if (value.kind() == DataKind::List) {
       value.resize(json.size());
       for (std::size_t i = 0; i < json.size() && !fault_; ++i) {
@@ -205,7 +205,7 @@ class Reader {
     } else if (value.kind() != DataKind::Pair) {
       fixed(json, value, at);
     } else if (json.size() != 2) {
-      fault(at, "is no pair");
+      fault(at, "is not a pair");
     } else {
       read(json[0], refers, info, value.first(), at + "[0]");
       read(json[1], refers, info, value.second(), at + "[1]");
@@ -222,7 +222,7 @@ class Reader {
     }
     const bool takes_reals = is_rotation || value.type->item->kind == DataKind::Real;
     if (!fault_ && !takes_reals && !are_whole(numbers)) {
-      fault(at, "is no whole number");
+      fault(at, "is not a whole number");
     }
     if (!fault_ && numbers.size() != count) {
       fault(at, "does not have " + std::to_string(count) + " numbers");
@@ -272,7 +272,7 @@ class Reader {
     } else if (word == "nan") {
       value = NAN;
     } else {
-      fault(at, "is no number");
+      fault(at, "is not a number");
     }
   }
 
@@ -280,7 +280,7 @@ class Reader {
     const bool whole = json.is_number_integer() || json.is_number_unsigned();
     const auto [lowest, highest] = integer_range(*value.type);
     if (!whole || json.get<double>() < lowest || json.get<double>() > highest) {
-      fault(at, "is no whole number of its range");
+      fault(at, "is not a whole number of its range");
       return;
     }
     set_integer(value, json.get<std::int64_t>());
@@ -288,12 +288,12 @@ class Reader {
 
   void path(const Parsed& json, Path& value, const std::string& at) {
     if (!json.is_string()) {
-      fault(at, "is no path");
+      fault(at, "is not a path");
       return;
     }
     const Result<Path> read = Path::parse(json.get<std::string>());
     if (!read) {
-      fault(at, "is no path");
+      fault(at, "is not a path");
       return;
     }
     value = *read;
@@ -314,7 +314,7 @@ class Reader {
 
   void settings(const Parsed& json, std::vector<scene::VendorSetting>& all, const std::string& at) {
     if (!json.is_object()) {
-      fault(at, "is no object");
+      fault(at, "is not an object");
       return;
     }
     for (const auto& [name, setting] : json.items()) {
@@ -351,7 +351,7 @@ Result<PhysicsScene> read_scene_json(std::string_view text) {
   };
   const Parsed json = Parsed::parse(text.begin(), text.end(), shallow, false);
   if (json.is_discarded() || too_deep) {
-    return Error(ErrorCode::Parse, "this is no JSON of a physics scene");
+    return Error(ErrorCode::Parse, "this is not JSON of a physics scene");
   }
   return Reader().read(json);
 }

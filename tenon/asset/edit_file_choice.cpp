@@ -105,10 +105,10 @@ Result<FileChoice> strongest_file(const FileQuestion& q) {
   if (q.prim.is_instance_proxy()) {
     for (const auto& source : stage::opinion_sources(q.stage, q.prim.path())) {
       if (!bytes::is_in_package(source.layer->identifier())) {
-        return FileChoice{source.layer->identifier(), "instances share what it says"};
+        return FileChoice{source.layer->identifier(), "instances share it"};
       }
     }
-    return no_file(q, "the prim is inside an instance whose content lies in a package",
+    return no_file(q, "the prim is inside an instance whose content is in a package",
                    "unpack it: tenon zip PACKAGE --extract FOLDER");
   }
   return FileChoice{q.stage.root_layer().identifier(),
@@ -162,7 +162,7 @@ Result<FileChoice> engine_file(const FileQuestion& q) {
   for (const std::string& file : files_with(q, role)) {
     const std::string name = file_part(file);
     if (role != Role::Engine || name.substr(0, name.rfind('.')) == engine) {
-      return FileChoice{file, "it holds what is for " + engine + " alone"};
+      return FileChoice{file, "it is for " + engine + " only"};
     }
   }
   return no_file(q, "the asset has no file for " + engine,

@@ -116,7 +116,7 @@ structure::AssetSource asset_source(layer::Layer layer, const bytes::ReadPolicy&
   structure::AssetSource source;
   source.root = std::make_shared<const layer::Layer>(std::move(layer));
   source.open_layer = [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
-    return Error(ErrorCode::NotFound, "the layer stands alone").in_file(asset);
+    return Error(ErrorCode::NotFound, "the layer is not part of an asset").in_file(asset);
   };
   source.files = policy.files();
   source.resolve_asset = [files = policy.files()](const std::string& asset, const layer::Layer&) {

@@ -55,8 +55,7 @@ std::map<Path, Instancer> instancers_of(const stage::Stage& stage, const scene::
     const bool proxy = at->second.prim.is_instance_proxy();
     if (proxy || at->second.crowded) {
       report(at->second.prim,
-             proxy ? "it lies inside an instance" : "an instance holds several of them",
-             diagnostics);
+             proxy ? "it is inside an instance" : "an instance holds several of them", diagnostics);
       at = found.erase(at);
     } else {
       ++at;

@@ -51,7 +51,7 @@ class Muter {
       ++counts_.out_of_reach;
       Diagnostic finding = prim.located(
           Severity::Warning, "strip.in-instance",
-          "the prim lies inside an instance: " + name.str() + " cannot be switched off on it");
+          "the prim is inside an instance: " + name.str() + " cannot be switched off on it");
       finding.prim = prim.path().str();
       finding.fix = "make the instance not instanceable, or mute the asset that it refers to";
       diagnostics_.add(std::move(finding));

@@ -130,7 +130,7 @@ bool NpyArray::set_shape(std::vector<std::size_t> shape, std::size_t bytes) {
 Result<NpyArray> NpyArray::read(std::shared_ptr<const bytes::FileBytes> file) {
   const std::optional<Header> header = find_header(file->text());
   if (!header) {
-    return broken("it is no file of an array that NumPy wrote");
+    return broken("it is not an array file of NumPy");
   }
   const auto type = entry(header->text, "descr", ",");
   const auto order = entry(header->text, "fortran_order", ",");

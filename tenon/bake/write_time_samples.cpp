@@ -72,7 +72,7 @@ bool collect(const BodyTransforms& transforms, std::size_t body, const PoseRecor
 void report_instanced(const stage::Prim& prim, Diagnostics& diagnostics) {
   Diagnostic finding = prim.located(
       Severity::Error, "bake.instanced-body",
-      "the body <" + prim.path().str() + "> lies inside an instance and cannot be animated");
+      "the body <" + prim.path().str() + "> is inside an instance and cannot be animated");
   finding.fix =
       "make the instances unique (tenon bake --uninstance), or put the rigid body on the instance "
       "root";

@@ -220,7 +220,7 @@ Result<Json> BrowserPage::State::next_message() {
         return ended();
       case Waiting::TooLong:
         return fault(ErrorCode::Limit, "browser.protocol",
-                     "the browser says more than is taken at once")
+                     "the browser sent a message that is too large")
             .in_file(program);
       case Waiting::Late:
         waited += static_cast<double>(slice.count()) / 1000;
@@ -306,9 +306,9 @@ Result<std::unique_ptr<BrowserPage>> BrowserPage::open(const BrowserOptions& opt
                                                        std::string_view html, std::size_t width,
                                                        std::size_t height) {
   if (html.size() > limits::kBrowserPage) {
-    return fault(ErrorCode::Limit, "browser.page-too-large",
-                 "the page is too large to be handed to a browser: " +
-                     std::to_string(html.size() >> 20) + " MB")
+    return fault(
+               ErrorCode::Limit, "browser.page-too-large",
+               "the page is too large for a browser: " + std::to_string(html.size() >> 20) + " MB")
         .with_fix("simplify the picture's meshes (--simplify)");
   }
   auto state = std::make_unique<State>();

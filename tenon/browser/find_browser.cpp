@@ -18,7 +18,7 @@ Error no_browser(const std::string& named) {
         .with_rule("browser.missing")
         .with_fix(kHowToGet);
   }
-  return Error(ErrorCode::Missing, "this is no program")
+  return Error(ErrorCode::Missing, "this is not a program")
       .in_file(named)
       .with_rule("browser.missing")
       .with_fix("name the program of a Chromium, or leave it out");

@@ -53,7 +53,7 @@ Result<void> ReadPolicy::check_real(const std::string& real, const std::string& 
   }
   const std::string leads = real == path ? "" : ", which leads to " + real + ",";
   return Error(ErrorCode::NotFound,
-               "@" + path + "@" + leads + " lies outside of the folders that the asset may read")
+               "@" + path + "@" + leads + " is outside of the folders that the asset may read")
       .with_rule(kOutsideRule)
       .with_fix("if it is meant to go into the result, give --allow-read " +
                 fs::path(real).parent_path().string());

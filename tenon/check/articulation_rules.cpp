@@ -104,7 +104,7 @@ void check_material_nested(const Subject& subject, Reporter& report) {
     }
     for (stage::Prim above = prim.parent(); above; above = above.parent()) {
       if (above.is_a("Material")) {
-        report.at(prim, "the material lies inside of the material <" + above.path().str() + ">",
+        report.at(prim, "the material is inside of the material <" + above.path().str() + ">",
                   "move it beside that one");
         break;
       }

@@ -57,7 +57,7 @@ void check_bodies_exist(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     if (prim.type_name() == "PhysicsScene") {
       report.at(prim, "there is a PhysicsScene but no rigid body: nothing moves",
-                "apply PhysicsRigidBodyAPI to what is to move");
+                "apply PhysicsRigidBodyAPI to the prims that should move");
       return;
     }
   }

@@ -204,7 +204,7 @@ void check_degenerate_mesh(const Subject& subject, Reporter& report) {
       report.at(subject.stage.prim(collider.path),
                 std::to_string(count) + " of " + std::to_string(mesh.triangles.size()) +
                     " triangles of the collider have no area",
-                "remove faces whose points lie in one line");
+                "remove faces whose points are collinear");
     }
   }
 }

@@ -106,7 +106,7 @@ void check_target_limits(const Subject& subject, Reporter& report) {
     if (target < joint.lower - kTargetSlack || target > joint.upper + kTargetSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim,
-                "the drive's target " + digits(target * unit) + " lies outside of the limits " +
+                "the drive's target " + digits(target * unit) + " is outside of the limits " +
                     digits(joint.lower * unit) + " and " + digits(joint.upper * unit),
                 "author a target within the limits");
     }

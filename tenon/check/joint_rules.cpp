@@ -145,7 +145,7 @@ void check_rotation_zero(const Subject& subject, Reporter& report) {
       const stage::Attribute rotation = prim.attribute(name);
       const auto value = rotation.has_authored_value() ? rotation.get_as<Quatf>() : std::nullopt;
       if (value && dot(to_double(*value), to_double(*value)) == 0) {
-        report.at(prim, name, std::string(name) + " is zero, no rotation; the identity is taken",
+        report.at(prim, name, std::string(name) + " is zero, not a rotation; the identity is used",
                   "author (1, 0, 0, 0) or the rotation that is meant");
       }
     }
@@ -263,7 +263,7 @@ void check_physx_joint_api(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     if (prim.has_api("PhysxJointAPI")) {
       report.at(prim,
-                "PhysxJointAPI is applied; newer PhysX releases ignore its attributes in silence",
+                "PhysxJointAPI is applied; newer PhysX releases ignore its attributes silently",
                 "apply PhysxJointAxisAPI or NewtonJointAPI beside it",
                 physics::api_part("PhysxJointAPI"));
     }

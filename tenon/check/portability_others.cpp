@@ -223,7 +223,7 @@ void check_mujoco_joint_kind(const Subject& subject, Reporter& report) {
       report.at(prim_of_joint(subject, joint),
                 "MuJoCo's reader knows revolute, prismatic and fixed joints: this " +
                     std::string(scene::joint_kind_name(joint.kind)) +
-                    " one holds its bodies otherwise there, or not at all",
+                    " one constrains its bodies differently there, or not at all",
                 "build the joint of revolute and prismatic ones");
     }
   });
@@ -271,9 +271,10 @@ void check_mujoco_flat_mesh(const Subject& subject, Reporter& report) {
     const bool mesh = collider.shape.kind == scene::ShapeKind::ConvexHull ||
                       collider.shape.kind == scene::ShapeKind::Mesh;
     if (collider.enabled && mesh && subject.scene.meshes[collider.shape.mesh].flat) {
-      report.at(subject.stage.prim(collider.path),
-                "all points of the mesh lie in one plane: MuJoCo's reader loads no such file",
-                "use a thin box, or a Plane");
+      report.at(
+          subject.stage.prim(collider.path),
+          "all points of the mesh are in one plane: MuJoCo's reader does not load such a file",
+          "use a thin box, or a Plane");
     }
   }
 }
@@ -302,7 +303,7 @@ void check_mujoco_plane(const Subject& subject, Reporter& report) {
     if (collider.enabled && axis && *axis != "Z") {
       report.at(
           prim, "axis",
-          "MuJoCo's reader takes every plane as one across Z; this one lies across " + axis->str(),
+          "MuJoCo's reader treats every plane as normal to Z; this one is normal to " + axis->str(),
           "rotate a plane whose axis is Z");
     }
   }

@@ -412,7 +412,7 @@ void check_physx_frames(const Subject& subject, Reporter& report) {
           joint_prim(subject, joint),
           std::string("outside of articulations PhysX pulls the frames of a joint together, ") +
               (both ? "and moves both bodies by their masses; here one of them is moved"
-                    : "and moves the body; here it is held where it stands"),
+                    : "and moves the body; here it is fixed in place"),
           "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
     }
   }

@@ -139,7 +139,7 @@ void check_physx_gravity(const Subject& subject, Reporter& report) {
       report.at(
           prim, "physics:gravityMagnitude",
           std::isinf(magnitude)
-              ? "PhysX takes an authored magnitude as it is, and its bodies are nowhere"
+              ? "PhysX takes an authored magnitude as it is, and its bodies have no position"
               : "PhysX takes a negative magnitude as it is: bodies fall upwards there, with " +
                     digits(length(scene.gravity)) + " m/s^2 downwards here",
           "leave the magnitude out, or author a positive one");

@@ -256,8 +256,9 @@ void check_below_instance(const Subject& subject, Reporter& report) {
     for (const stage::SpecSite& site : prim.spec_stack()) {
       const bool here = local.contains(site.layer) && site.path == prim.path();
       if (here && !layer::Layer::children(*site.spec, fields::primChildren).empty()) {
-        report.at(prim, "opinions below an instance do not count: instances share what is below",
-                  "make the prim not instanceable, or put the opinions into what it references");
+        report.at(
+            prim, "opinions below an instance do not count: instances share their descendants",
+            "make the prim not instanceable, or put the opinions into the file that it references");
         break;
       }
     }

@@ -131,7 +131,7 @@ void check_filtered_colliders(const Subject& subject, Reporter& report) {
     }
     const std::vector<Path> targets = prim.relationship(name).targets();
     if (!targets.empty() && !stands_for_colliders(subject, prim.path())) {
-      report.at(prim, name, "no collider lies at or below the prim: its pairs filter nothing",
+      report.at(prim, name, "there is no collider at or below the prim: its pairs filter nothing",
                 "apply the API to a collider, a body or an articulation");
       continue;
     }
@@ -139,7 +139,7 @@ void check_filtered_colliders(const Subject& subject, Reporter& report) {
       if (subject.stage.prim(target) && !stands_for_colliders(subject, target)) {
         report.at_target(prim, name, target,
                          "physics:filteredPairs names <" + target.str() +
-                             ">, and no collider lies at or below it: the pair filters nothing",
+                             ">, and there is no collider at or below it: the pair filters nothing",
                          "name a collider, a body or an articulation");
       }
     }

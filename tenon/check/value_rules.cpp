@@ -200,7 +200,7 @@ void check_break_at_once(const Subject& subject, Reporter& report) {
       const char* name = joint.break_force == 0 ? "physics:breakForce" : "physics:breakTorque";
       report.at(subject.stage.prim(joint.path), name,
                 std::string(name) + " is 0: the joint breaks as soon as it carries anything",
-                "author what it is to carry, or leave it out, which means that it never breaks");
+                "author the break force, or clear it, so that the joint never breaks");
     }
   }
 }

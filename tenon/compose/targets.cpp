@@ -165,7 +165,7 @@ class TargetCombiner {
     }
     if (cache_ != nullptr && targets_instance_of_class(in_node, target, opinion)) {
       report(error_class::kInvalidInstanceTargetPath, opinion, path, target,
-             quoted(in_node) + " is authored in a class but lies in what uses it; it is ignored",
+             quoted(in_node) + " is authored in a class but is inside its user; it is ignored",
              "target something within the class");
       return {};
     }

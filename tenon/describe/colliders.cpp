@@ -96,7 +96,7 @@ void add_colliders(SceneSource& source, BodyTree& bodies, std::vector<robot::Mes
   for (const scene::Collider& described : source.scene().colliders) {
     const std::optional<Index> link = link_of(bodies, described);
     if (!link) {
-      source.left_out(described.path, "the collider stands still and belongs to no link");
+      source.left_out(described.path, "the collider is static and belongs to no link");
       continue;
     }
     if (!described.enabled) {

@@ -134,7 +134,7 @@ void SurfaceReader::read_color_image() {
   look_.texture_scale = mapping.scale;
   look_.texture_offset = mapping.offset;
   if (mapping.is_turned) {
-    source_.left_out(color->texture.path(), "the image is turned");
+    source_.left_out(color->texture.path(), "the image is rotated");
   }
 }
 
@@ -196,9 +196,8 @@ void SurfaceReader::read_image(const ImageSource& image, bool is_channel, ImageU
   const Mapping mapping = mapping_of(image.texture);
   const bool alike = !mapping.is_turned && near(mapping.scale, look_.texture_scale);
   if (image.file.empty() || !alike || !is_channel) {
-    source_.left_out(
-        image.texture.path(),
-        "an image is not there, or lies in another channel or place than the colour's");
+    source_.left_out(image.texture.path(),
+                     "an image is missing, or is in another channel or place than the colour's");
   } else {
     look_.images.push_back({use, image.file});
   }

@@ -142,7 +142,7 @@ void VisualWalk::note_site(const Place& place) {
 
 void VisualWalk::add_visual(const stage::Prim& prim, std::optional<Index> link) {
   if (!link) {
-    source_.left_out(prim.path(), "the shape stands still and belongs to no link");
+    source_.left_out(prim.path(), "the shape is static and belongs to no link");
     return;
   }
   std::optional<VisualShape> shape = read_visual_shape(source_, prim, tree_.pose(*link));

@@ -14,7 +14,7 @@ Error no_prim(Path prim) {
   return Error(ErrorCode::NotFound, "there is no prim <" + prim.str() + ">")
       .with_prim(prim.str())
       .with_rule("edit.no-prim")
-      .with_fix("define it first; what is below an inactive prim is not there");
+      .with_fix("define it first; an inactive prim has no children");
 }
 
 Error bad_path(Path path, const std::string& wanted) {
@@ -36,7 +36,7 @@ Error instance_proxy(Path prim) {
       .with_prim(prim.str())
       .with_rule("edit.instance-proxy")
       .with_fix(
-          "edit what is instanced through an edit target behind the arc, or make the "
+          "edit the instanced prims through an edit target behind the arc, or make the "
           "instance non-instanceable");
 }
 

@@ -243,7 +243,7 @@ Result<void> LayerEditor::move_prim(Path from, Path to) {
         .in_file(layer_->identifier())
         .with_prim(from.str())
         .with_rule("edit.bad-move")
-        .with_fix("choose another name or remove what is there");
+        .with_fix("choose another name or remove that prim");
   }
   for (const Path old : subtree(from)) {
     const Spec* there = layer_->find(old);

@@ -84,7 +84,7 @@ std::optional<JointState> joint_state_of(const std::vector<double>& numbers) {
 
 Result<void> repeat_input(const Input& input, Simulation& simulation) {
   Numbers numbers(input.numbers);
-  const auto damaged = [] { return bad_state("what was set cannot be"); };
+  const auto damaged = [] { return bad_state("the saved inputs are invalid"); };
   const auto checked = [&](const Result<void>& done) {
     return done && numbers.is_done() ? Result<void>() : damaged();
   };
@@ -196,9 +196,10 @@ std::optional<std::vector<Input>> read_inputs(std::string_view bytes) {
 Result<std::string> save_run(const StateOwner& owner, const SimulationOptions& options,
                              std::uint64_t steps, const InputLog& log) {
   if (!log.is_whole()) {
-    return Error(ErrorCode::Unsupported,
-                 "a state on this engine is what was set since the start, and that is more than " +
-                     std::to_string(InputLog::kMostBytes >> 20) + " MiB by now")
+    return Error(
+               ErrorCode::Unsupported,
+               "a state on this engine is the list of inputs since the start, which is more than " +
+                   std::to_string(InputLog::kMostBytes >> 20) + " MiB by now")
         .with_rule("simulation.state")
         .with_fix("save earlier, or set only what changes");
   }

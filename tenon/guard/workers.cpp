@@ -199,7 +199,8 @@ Diagnostic refused_file(const std::string& file, const std::string& refused,
   }
   return file_finding(Severity::Error, "guard.outside",
                       "the file asks for \"" + refused +
-                          "\", which is no file in the folders that may be read (" + folders + ")",
+                          "\", which is not a file in the folders that may be read (" + folders +
+                          ")",
                       file, 0, "put the file there, or name its folder as one that may be read");
 }
 

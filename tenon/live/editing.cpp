@@ -36,7 +36,7 @@ void read_anew() {
 Result<AssetEdit> edit_of(AssetEdit::Kind kind, const Asked& asked) {
   const auto object = Path::parse(asked.text("object"));
   if (!object || !object->is_property() || !object->is_absolute()) {
-    return Error(ErrorCode::Invalid, "`" + asked.text("object") + "` is no path of a property")
+    return Error(ErrorCode::Invalid, "`" + asked.text("object") + "` is not a property path")
         .with_rule("live.bad-field")
         .with_fix("write it as /hand/palm.physics:mass");
   }

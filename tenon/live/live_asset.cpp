@@ -95,7 +95,8 @@ void make_live_world(const LiveAssetOptions& options, const std::string& engine,
     finding.severity = Severity::Info;
     finding.rule = "live.no-bodies";
     finding.message = "the asset has no bodies, so nothing moves";
-    finding.fix = "apply PhysicsRigidBodyAPI to what is to move, or select another variant";
+    finding.fix =
+        "apply PhysicsRigidBodyAPI to the prims that should move, or select another variant";
     asset.problem = std::move(finding);
     return;
   }

@@ -54,9 +54,9 @@ constexpr std::array kState{
     Field{"playing", kFlag, true, "time goes on"},
     Field{"time", kNumber, true, "[s] since the start"},
     Field{"speed", kNumber, true, "simulated seconds for each second that is wanted"},
-    Field{"rate", kNumber, true, "what is reached of it"},
+    Field{"rate", kNumber, true, "the rate that is reached"},
     Field{"contacts", kInteger, true, "how many there are"},
-    Field{"pulled", kInteger, true, "bodies that somebody pulls"},
+    Field{"pulled", kInteger, true, "bodies being pulled"},
 };
 constexpr std::array kPlots{
     Field{"time", kNumber, true, "[s]"},
@@ -74,7 +74,7 @@ constexpr std::array kContacts{
 constexpr std::array kAnswer{
     Field{"to", kText, true, "the request's name"},
     Field{"id", FieldType::Any, false, "the request's"},
-    Field{"result", kObject, true, "what the request asked for"},
+    Field{"result", kObject, true, "the result of the request"},
 };
 constexpr std::array kError{
     Field{"to", kText, true, "the request's name, as far as it could be read"},
@@ -95,7 +95,7 @@ constexpr std::array kNotices{
     MessageInfo{"contacts", kContacts, "Where colliders touch, likewise", ""},
     MessageInfo{"answer", kAnswer, "A request was done", ""},
     MessageInfo{"error", kError, "A request was not done", ""},
-    MessageInfo{"problem", kProblem, "Something that nobody asked for went wrong", ""},
+    MessageInfo{"problem", kProblem, "Something went wrong, not in a request", ""},
 };
 
 Error bad_field(const MessageInfo& info, std::string_view field, std::string_view why) {

@@ -104,7 +104,8 @@ Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox& o
   TENON_TRY(engines::World * world, state.world());
   TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
   if (state.playing) {
-    return refused("time goes on: joints are moved by hand while it stands still", "pause first");
+    return refused("the simulation is running: joints are moved by hand while it is paused",
+                   "pause first");
   }
   const std::vector<double> wanted = asked.numbers("position");
   const std::size_t count = world->joint_state(index).position.size();
@@ -254,7 +255,7 @@ constexpr std::array kRequests{
              "{`position`, `velocity`}"},
             set_drive},
     Request{{"setJoint", kJointFields,
-             "Moves a joint, and those that mimic it, by hand, while time stands still",
+             "Moves a joint, and those that mimic it, by hand, while the simulation is paused",
              "{`position`}"},
             set_joint},
     Request{
@@ -278,7 +279,7 @@ constexpr std::array kRequests{
              "as `tenon explain --json PRIM`, and {`all`: rows {`name`, `type`, `value`, "
              "`authored`, `source`}}"},
             ask_inspect},
-    Request{{"where", kWhereFields, "Which files speak about it, and which of them counts",
+    Request{{"where", kWhereFields, "Which files have opinions on it, and which one counts",
              "as `tenon where --json`"},
             ask_where},
     Request{{"explain", kExplainFields, "Where a number comes from", "as `tenon explain --json`"},

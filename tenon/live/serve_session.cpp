@@ -139,9 +139,9 @@ void hand_over(LateAnswers& answers, const Session& session, Outbox& out) {
   for (LateAnswer& late : std::exchange(out.late, {})) {
     if (!answers.put(late)) {
       session.answer_late(late,
-                          Error(ErrorCode::Limit, "too much is asked for at once")
+                          Error(ErrorCode::Limit, "too many requests at once")
                               .with_rule("live.busy")
-                              .with_fix("wait for what was asked for before"),
+                              .with_fix("wait for the earlier requests"),
                           out);
     }
   }

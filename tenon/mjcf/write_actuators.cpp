@@ -75,7 +75,7 @@ class ActuatorWriter {
 
   std::string set_target(mjtObj kind, const std::string& name, mjsActuator& to) {
     if (name.empty() || mjs_findElement(&spec_, kind, name.c_str()) == nullptr) {
-      return "what it acts on is not in the model";
+      return "its target is not in the model";
     }
     mjs_setString(to.target, name.c_str());
     return {};

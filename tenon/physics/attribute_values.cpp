@@ -69,7 +69,7 @@ bool AttributeValues::check_number(const stage::Prim& prim, Token name, double v
   }
   // S-4
   report(prim, name, Severity::Error, "attribute.not-a-number",
-         name.str() + " is not a number; it is taken as unauthored", "author a finite number");
+         name.str() + " is not a number; it is treated as unauthored", "author a finite number");
   return false;
 }
 
@@ -195,7 +195,7 @@ void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::Va
   const std::string wanted_name = schema == nullptr ? "another type" : schema->name.str();
   report(prim, name, converted ? Severity::Warning : Severity::Error, "attribute.wrong-type",
          name.str() + " is " + found_name + ", the schema says " + wanted_name +
-             (converted ? "; it is converted" : "; it is taken as unauthored"),
+             (converted ? "; it is converted" : "; it is treated as unauthored"),
          "declare it as " + wanted_name);
 }
 

@@ -165,7 +165,7 @@ class Checks {
 
 Result<void> check_model(const RobotModel& model) {
   if (std::string fault = Checks(model).run(); !fault.empty()) {
-    return Error(ErrorCode::Corrupt, "what was read of the file contradicts itself: " + fault)
+    return Error(ErrorCode::Corrupt, "the data read from the file contradict themselves: " + fault)
         .in_file(model.file)
         .with_rule("robot.corrupt")
         .with_fix("report this with the file");

@@ -105,7 +105,7 @@ class Sanitizing {
     inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
     report(inertial.place, "robot.inertia-not-positive",
            whose + "has a principal moment that is not above 0; " +
-               (sum > 0 ? "the mean of the three is taken for each" : "it is skipped"),
+               (sum > 0 ? "the mean of the three is used for each" : "it is skipped"),
            "take the inertia from the part's shape and mass", Severity::Warning);
     return true;
   }
@@ -175,7 +175,7 @@ class Sanitizing {
     }
     if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
       report(joint.place, "robot.zero-axis",
-             "the axis of joint \"" + joint.name + "\" has no direction; 1 0 0 is taken",
+             "the axis of joint \"" + joint.name + "\" has no direction; 1 0 0 is used",
              "give the axis three numbers that are not all 0");
     }
     joint.axis = {{1, 0, 0}};

@@ -82,7 +82,7 @@ class Check {
       case DataKind::Ordinal:
         if (info.refers != List::None && info.refers != List::Meshes) {
           require(value.as<Index>() < size_of(scene_, list_of(owner, info.refers)),
-                  "an index leads nowhere");
+                  "an index is out of range");
         }
         break;
       case DataKind::Pair:
@@ -180,7 +180,7 @@ class Check {
     for (const Vec3i& triangle : mesh.triangles) {
       for (const int corner : triangle.v) {
         require(corner >= 0 && static_cast<std::size_t>(corner) < mesh.points.size(),
-                "a corner of a triangle leads nowhere");
+                "a corner of a triangle is out of range");
       }
     }
   }
@@ -254,13 +254,13 @@ class Check {
             "not every collider has a list of groups");
     for (const std::vector<Index>& of : filter.groups_of_collider) {
       require(std::all_of(of.begin(), of.end(), [groups](Index i) { return i < groups; }),
-              "a group leads nowhere");
+              "a group is out of range");
     }
     require(
         filter.group_pair_off.size() == groups * groups && filter.ungrouped_off.size() == groups,
         "a table of groups has another size");
     const std::size_t count = scene_.colliders.size();
-    const char* const fault = "a pair of colliders leads nowhere";
+    const char* const fault = "a pair of colliders is out of range";
     require(all_below(filter.pairs_off, count), fault);
     require(all_below(filter.permanent_pairs, count), fault);
     for (const JointPairs& pairs : filter.joint_pairs) {

@@ -74,7 +74,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       const bool too_long =
           fault == http::error::header_limit || fault == http::error::buffer_overflow;
       refuse(too_long ? http::status::request_header_fields_too_large : http::status::bad_request,
-             "this is no request that is understood here\n", false);
+             "bad request\n", false);
       return;
     }
     answer(parser_->get());

@@ -97,7 +97,7 @@ Result<void> listen(Hub& hub) {
   beast::error_code fault;
   const auto address = asio::ip::make_address(hub.options.bind, fault);
   if (fault) {
-    return Error(ErrorCode::Invalid, "`" + hub.options.bind + "` is no address")
+    return Error(ErrorCode::Invalid, "`" + hub.options.bind + "` is not an address")
         .with_rule("usage.value")
         .with_fix("give it as numbers: 127.0.0.1 for this machine alone, 0.0.0.0 for all networks");
   }

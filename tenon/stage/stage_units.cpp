@@ -44,11 +44,11 @@ double positive(const Stage& stage, Token field, double fallback, const char* ru
   if (value && *value > 0 && std::isfinite(*value)) {
     return *value;
   }
-  diagnostics.add(
-      diagnostic_at(stage, field, rule,
-                    field.str() + " is " + (value ? shortest(*value) : std::string("no number")) +
-                        ", which no scene can be measured in; " + shortest(fallback) + " is taken",
-                    "author a positive number"));
+  diagnostics.add(diagnostic_at(
+      stage, field, rule,
+      field.str() + " is " + (value ? shortest(*value) : std::string("no number")) +
+          ", which is not a unit of length or mass; " + shortest(fallback) + " is taken",
+      "author a positive number"));
   return fallback;
 }
 

@@ -347,7 +347,7 @@ Diagnostics check_variant(const stage::Stage& stage, const std::string& variant)
                                     : prim.attribute(name).located_target(
                                           Severity::Error, "structure.dangling-target", "", target);
           dangling.message = name.str() + " names <" + target.str() + ">, which is not there";
-          dangling.fix = "author the target in the file that defines what it names";
+          dangling.fix = "author the target in the file that defines the prim";
           found.add(std::move(dangling));
         }
       }

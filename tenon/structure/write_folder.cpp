@@ -102,7 +102,7 @@ Error unknown(const std::string& folder, const std::vector<std::string>& names) 
       .with_rule("output.unknown")
       .with_fix(
           "name a new folder, move those files elsewhere, or give --force: it overwrites "
-          "what has the name of a new file, and leaves the rest");
+          "files with the name of a new file, and leaves the rest");
 }
 
 Error holds_input(const std::string& file, bool known) {
@@ -218,8 +218,7 @@ Result<void> write_folder(const Contents& files, const std::string& folder,
                           const WriteOptions& options) {
   for (const auto& [name, contents] : files) {
     if (!is_usable_name(name)) {
-      return Error(ErrorCode::Invalid, "\"" + name + "\" is no name of a file in a folder")
-          .in_file(folder);
+      return Error(ErrorCode::Invalid, "\"" + name + "\" is not a file name").in_file(folder);
     }
   }
   TENON_TRY(const std::string target, real_folder(folder));

@@ -126,7 +126,7 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
   if (!limit) {
     if (bounded) {
       xml_.warn(element, "urdf.missing",
-                "the joint \"" + joint.name + "\" needs a <limit>; it is taken as unlimited",
+                "the joint \"" + joint.name + "\" needs a <limit>; it is treated as unlimited",
                 "add <limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>",
                 Severity::Error);
     }
@@ -139,7 +139,7 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
   TENON_TRY(const double velocity, xml_.number(limit, "velocity", robot::kUnlimited));
   if (bounded && !limit.attribute("lower") && !limit.attribute("upper")) {
     xml_.warn(limit, "urdf.missing",
-              "gives the joint \"" + joint.name + "\" no bounds; it is taken as unlimited",
+              "gives the joint \"" + joint.name + "\" no bounds; it is treated as unlimited",
               "write lower and upper, or type=\"continuous\"");
   } else if (bounded) {
     joint.limit = robot::Limit{lower, upper};
@@ -148,7 +148,7 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
   if (effort == 0 || velocity == 0) {
     xml_.warn(limit, "urdf.zero-limit",
               std::string(effort == 0 ? "effort" : "velocity") + " 0 of joint \"" + joint.name +
-                  "\" is taken as unlimited",
+                  "\" is treated as unlimited",
               "give the limit, or leave the attribute out");
   }
   joint.effort_limit = effort == 0 ? robot::kUnlimited : effort;

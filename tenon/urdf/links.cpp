@@ -15,7 +15,7 @@ using robot::GeometryKind;
 void report_guess(XmlReader& xml, pugi::xml_node element, const std::string& what,
                   const std::string& file, std::string advice) {
   xml.warn(element, "urdf.mesh-nearby",
-           what + " is not at its place; \"" + file + "\", whose name ends like it, is taken",
+           what + " is not at its place; \"" + file + "\", whose name ends like it, is used",
            std::move(advice), Severity::Info);
 }
 

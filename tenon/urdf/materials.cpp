@@ -26,7 +26,7 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
     Vec4d values{{rgba[0], rgba[1], rgba[2], rgba[3]}};
     for (std::size_t i = 0; i < 4; ++i) {
       if (!(values[i] >= 0 && values[i] <= 1)) {
-        xml_.warn(color, "urdf.color", "rgba has a number outside of 0 to 1; the nearest is taken",
+        xml_.warn(color, "urdf.color", "rgba has a number outside of 0 to 1; the nearest is used",
                   "divide colours of 0 to 255 by 255");
         values[i] = values[i] > 1 ? 1 : 0;
       }

@@ -207,7 +207,7 @@ std::string MeshPaths::advice(const std::string& written) const {
     if (packages_.count(parts->first) != 0) {
       return "look into the folder given for the package \"" + parts->first + "\"";
     }
-    return "say where the package lies: --package " + parts->first + "=DIR";
+    return "give the package's folder: --package " + parts->first + "=DIR";
   }
   return "put the file at that place, seen from the description";
 }

@@ -71,7 +71,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
   model_.name = robot.attribute("name").value();
   if (model_.name.empty()) {
     model_.name = std::filesystem::path(xml_.file()).stem().string();
-    xml_.warn(robot, "urdf.missing", "has no name; \"" + model_.name + "\" is taken",
+    xml_.warn(robot, "urdf.missing", "has no name; \"" + model_.name + "\" is used",
               "write name=\"...\"");
   }
   xml_.list_unknown(robot, {"name", "version"},

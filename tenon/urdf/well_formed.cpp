@@ -51,7 +51,7 @@ class WellFormedScan {
     const std::string_view part = text_.substr(begin, end - begin);
     if (depth_ == 0) {
       if (const std::size_t word = part.find_first_not_of(kXmlSpace); word != part.npos) {
-        report(begin + word, "text stands outside of the root element");
+        report(begin + word, "text outside of the root element");
       }
       return;
     }

@@ -489,7 +489,7 @@ class Effects(Case):
         self.assertEqual(self.value(pairs), [f"{R}/right_ring_2"])
         self.assertEqual(len(effect["physics"]), 3)
         self.original = self.files()
-        self.assertIn("is no relationship", self.refused(f"{JOINT}.physics:upperLimit+=5"))
+        self.assertIn("is not a relationship", self.refused(f"{JOINT}.physics:upperLimit+=5"))
 
     def test_many_edits_at_once_are_judged_one_by_one(self):
         scene = json.loads(tenon("physics", self.hand, "--json").stdout)
@@ -510,7 +510,7 @@ class Effects(Case):
     def test_without_an_effect_nothing_is_written(self):
         self.take_text(ACTUATED)
         self.assertIn("</R/act>: the actuator's gains", self.vain("--drive", "/R/j=stiffness:3"))
-        self.assertIn("of type Xform, which is no shape that touches; choose a shape below it: "
+        self.assertIn("of type Xform, which is not a collider shape; choose a shape below it: "
                       "--collider /R/a=convexHull", self.vain("--collider", "/R=convexHull"))
         self.assertIn("belongs to no body", self.vain("--mass", "/R=2"))
         self.assertIn("does not change; tenon set --clear /R/a.physics:mass",

@@ -262,7 +262,7 @@ class Commands(Sim):
                 (f"time,{column}x\n0,1\n", [":1:6:", f"did you mean {column}?"]),
                 (f"time,{JOINT}.angle\n0,1\n", [":1:6:", "this joint has", ".velocityTarget"]),
                 ("time,/nobody.target\n", [":1:6:", "/nobody.target", ".effort"]),
-                (f"time,{column},{column}\n", ["stands twice"]),
+                (f"time,{column},{column}\n", ["is there twice"]),
                 (f"time,{column}\n0,1\n0,2\n", [":3:1:", "does not come after", "sort"]),
                 (f"time,{column}\n1,1\n0.5,2\n", [":3:1:", "does not come after"]),
                 (f"time,{column}\n0,nan\n", [":2:3:", "no finite number"]),

@@ -239,7 +239,7 @@ class Addition {
     if (option.name == "mass") {
       const auto kilograms = parse_double(value);
       if (!kilograms || !(*kilograms > 0)) {
-        return bad_option(wanted_.prim, "--mass " + value + " is no mass",
+        return bad_option(wanted_.prim, "--mass " + value + " is not a mass",
                           "a mass is a number of kilograms above 0");
       }
       const double unit = stage().metadata(Token("kilogramsPerUnit")).get_or(1.0);
@@ -339,7 +339,7 @@ class Addition {
     }
     const std::string fixed = (body1 ? body1 : body0).path().str();
     return bad_option(wanted_.prim,
-                      "<" + fixed + "> is no body: the joint would join what stands still",
+                      "<" + fixed + "> is not a body: the joint would connect two static objects",
                       "make it one first: tenon add ASSET " + fixed + "=body", "edit.no-body");
   }
 

@@ -39,7 +39,7 @@ Result<AuthoredAsset> author(const std::string& path, const AuthoringRequest& re
 
 Result<MadeFile> new_asset(const std::string& file, const NewAsset& wanted) {
   if (!is_identifier(wanted.default_prim)) {
-    return Error(ErrorCode::Invalid, "\"" + wanted.default_prim + "\" is no name of a prim")
+    return Error(ErrorCode::Invalid, "\"" + wanted.default_prim + "\" is not a prim name")
         .with_rule("edit.bad-name")
         .with_fix("use letters, digits and '_', no digit in front");
   }

@@ -98,7 +98,7 @@ Result<JointPlacement> place_joint(const JointWish& wish, double start) {
   } else if (!wish.axis.empty()) {
     TENON_TRY(const Vec3d direction, read_vector(wish.axis, "axis"));
     if (dot(direction, direction) == 0) {
-      return Error(ErrorCode::Invalid, "--axis " + wish.axis + " is no direction")
+      return Error(ErrorCode::Invalid, "--axis " + wish.axis + " is not a direction")
           .with_rule("edit.bad-argument")
           .with_fix("write X, Y, Z, or a direction other than 0,0,0");
     }

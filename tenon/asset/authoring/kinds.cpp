@@ -43,7 +43,7 @@ std::vector<Kind> shape_kinds() {
        .type = "Plane",
        .options = {width, length, axis}},
       {.name = "ground",
-       .about = "a plane across the up axis that things stand on: a collider",
+       .about = "a ground plane across the up axis: a collider",
        .type = "Plane",
        .apis = {"PhysicsCollisionAPI"},
        .options = {width, length}},
@@ -193,7 +193,7 @@ std::vector<Kind> api_kinds() {
        .options = {{"material", "material:binding:physics"}},
        .needs = {"material"}},
       {.name = "filtered-pair",
-       .about = "the prim and another one, with what is below them, do not touch",
+       .about = "the prim and another one, with their descendants, never collide",
        .apis = {"PhysicsFilteredPairsAPI"},
        .options = {{"with", "physics:filteredPairs"}}},
   };
@@ -256,7 +256,7 @@ std::vector<AuthoringOption> prim_options() {
       {"at", "X,Y,Z", "units of length",
        "Where it stands, below its parent; of joints the point, "
        "in the world, where the bodies meet"},
-      {"rotate", "X,Y,Z", "degrees", "Turned about X, then Y, then Z; W,X,Y,Z: a quaternion"},
+      {"rotate", "X,Y,Z", "degrees", "Rotation about X, then Y, then Z; or a quaternion W,X,Y,Z"},
       {"scale", "X,Y,Z", "", "Scaled along its axes"},
       {"size", "NUMBER", "units of length", "Edge of a cube"},
       {"radius", "NUMBER", "units of length", "Radius"},

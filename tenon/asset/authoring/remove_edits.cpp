@@ -49,7 +49,7 @@ class Removal {
     return Error(ErrorCode::NotFound, "<" + wanted_.prim.str() + "> has no " + what)
         .with_prim(wanted_.prim.str())
         .with_rule("edit.has-none")
-        .with_fix("tenon explain ASSET " + wanted_.prim.str() + " tells what it has");
+        .with_fix("tenon explain ASSET " + wanted_.prim.str() + " lists its contents");
   }
 
   AssetEdit edit_of(AssetEdit::Kind kind, Path object) const {
@@ -348,7 +348,7 @@ Result<void> check_removal_options(const AuthoringRequest& request) {
     if (name != "dof" && name != "with" && name != "variant") {
       return Error(ErrorCode::Invalid, "removing takes no --" + name)
           .with_rule("edit.bad-argument")
-          .with_fix("leave it out: what was added goes with all its properties");
+          .with_fix("remove that option: the kind is removed with all its properties");
     }
   }
   return {};

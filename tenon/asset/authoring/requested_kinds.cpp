@@ -75,7 +75,7 @@ Error untaken(const std::string& option, const std::vector<const Kind*>& kinds) 
                              : "it belongs to " + std::string(missing->name) + ": write " + list +
                                    std::string(missing->name);
   }
-  return Error(ErrorCode::Invalid, "--" + option + " is no option of " + names)
+  return Error(ErrorCode::Invalid, "--" + option + " is not an option of " + names)
       .with_rule("edit.bad-argument")
       .with_fix(fix);
 }

@@ -51,7 +51,7 @@ Error bad_bound(const std::string& text) {
   for (const motions::MetricInfo& info : motions::metrics()) {
     names += (names.empty() ? "" : ", ") + std::string(info.name);
   }
-  return Error(ErrorCode::Invalid, "\"" + text + "\" is no bound of a gap")
+  return Error(ErrorCode::Invalid, "\"" + text + "\" is not a bound for a gap")
       .with_rule("usage.value")
       .with_fix("write a number with its unit (5mm, 1deg), or NAME=NUMBER of " + names);
 }

@@ -180,7 +180,7 @@ std::optional<std::string> with_edits(const std::string& text,
     said.push_back(edit.prim.name().str() + "." + edit.property);
   }
   diagnostics.add(file_finding(Severity::Info, "mjcf.patched",
-                               "the model that the asset was made of is kept, with what was edited "
+                               "the model that the asset was made from is kept, with the edits "
                                "since: " +
                                    named_few(said),
                                "", 0));

@@ -59,7 +59,7 @@ Result<ModelText> ModelText::read(const std::string& text) {
   model.document_ = std::make_unique<pugi::xml_document>();
   const unsigned kept = pugi::parse_default | pugi::parse_comments | pugi::parse_ws_pcdata;
   if (!model.document_->load_buffer(text.data(), text.size(), kept)) {
-    return Error(ErrorCode::Parse, "the kept model is no XML");
+    return Error(ErrorCode::Parse, "the kept model is not XML");
   }
   model.index();
   return model;

@@ -76,7 +76,7 @@ std::string write_inertia(Patching& at, Path prim) {
   const Numbers moments{inertia[0][0], inertia[1][1], inertia[2][2],
                         inertia[0][1], inertia[0][2], inertia[1][2]};
   if (!std::isfinite(body->mass) || !all_finite(moments)) {
-    return "it is no finite number";
+    return "it is not a finite number";
   }
   pugi::xml_node inertial = node.child("inertial");
   inertial = inertial ? inertial : node.prepend_child("inertial");
@@ -139,7 +139,7 @@ std::string write_limits(Patching& at, Path prim) {
   const double unit = counts_in_degrees(at, *joint) ? kDegreesPerRadian : 1;
   const Numbers range{joint->lower * unit, joint->upper * unit};
   if (!all_finite(range) || range[0] >= range[1]) {
-    return "it is no range";
+    return "it is not a range";
   }
   at.text.set_numbers(node, "range", range);
   if (at.text.value(node, "limited") != "true") {
@@ -156,7 +156,7 @@ std::string write_joint(Patching& at, Path prim, const char* attribute,
     return kNoElement;
   }
   if (!std::isfinite(joint->*member)) {
-    return "it is no finite number";
+    return "it is not a finite number";
   }
   at.text.set_numbers(node, attribute, {joint->*member});
   return {};

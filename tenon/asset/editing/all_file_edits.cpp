@@ -45,7 +45,7 @@ Error nothing_to_edit(const AssetEdit& edit) {
 /// A name that is free under every selection.
 Result<void> check_new_name(const AllFiles& files, const AssetEdit& edit) {
   if (!is_identifier(edit.value)) {
-    return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is no name of a prim")
+    return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is not a prim name")
         .with_prim(edit.object.str())
         .with_rule("edit.bad-name")
         .with_fix("use letters, digits and '_', no digit in front");

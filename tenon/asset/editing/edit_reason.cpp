@@ -127,7 +127,7 @@ MaybeReason no_collider(const PhysicsView& view, const stage::Prim& prim, const 
     fix += (fix.empty() ? "choose a shape below it: --collider " : ", ") + shape.str() + "=" +
            (edit.value.empty() ? "on" : edit.value);
   }
-  return Reason{type_words(prim) + ", which is no shape that touches",
+  return Reason{type_words(prim) + ", which is not a collider shape",
                 fix.empty() ? "choose a shape: a Mesh, Cube, Sphere, Capsule or the like" : fix};
 }
 

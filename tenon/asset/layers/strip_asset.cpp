@@ -36,7 +36,7 @@ void report_outside(const AssetLayers& asset, const std::string& path, const Ope
       diagnostics.add(
           file_finding(Severity::Error, bytes::kOutsideRule,
                        "the layer @" + identifier +
-                           "@ lies outside of the folders of the asset; its physics "
+                           "@ is outside of the folders of the asset; its physics "
                            "stays",
                        path, 0,
                        "if it belongs to the asset, give --allow-read " +

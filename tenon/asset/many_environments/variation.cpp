@@ -210,7 +210,7 @@ Result<void> vary_bodies(const Variation& variation, const std::vector<double>& 
 Result<Variation> read_variation(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos) {
-    return bad_variation(text, "is no variation");
+    return bad_variation(text, "is not a variation");
   }
   Variation variation;
   variation.text = text.substr(0, equals);
@@ -237,7 +237,7 @@ Result<Variation> read_variation(const std::string& text) {
     variation.list = name.substr(0, dot);
     variation.field = name.substr(dot + 1);
   } else {
-    return bad_variation(text, "is no variation");
+    return bad_variation(text, "is not a variation");
   }
   return variation;
 }

@@ -56,7 +56,7 @@ std::string choose_engine(const std::string& asked, const stage::Stage& stage,
   if (const std::string how_to_get = missing(engine); !how_to_get.empty()) {
     diagnostics.add(warning("sim.engine-fallback",
                             "the variant is for PhysX, which this build does not have; MuJoCo runs "
-                            "it (check --for mujoco tells what is different)",
+                            "it (check --for mujoco lists the differences)",
                             prim, how_to_get));
     return kUsualEngine;
   }

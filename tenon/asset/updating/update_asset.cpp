@@ -53,7 +53,7 @@ Result<Bytes> bytes_if_there(const std::string& path) {
 
 Error no_base(const std::string& folder, const std::string& opening) {
   return Error(ErrorCode::Invalid,
-               "the asset was edited since it was made, and nothing tells what it was: " +
+               "the asset was edited since it was made, and its former state is unknown: " +
                    structure::copy_place(opening) + " is missing, or is that of another version")
       .in_file(folder + '/' + opening)
       .with_rule("update.no-base")
@@ -69,7 +69,7 @@ Result<void> check_inside(const structure::Digests& files, const std::string& pl
     if (name.empty() || !path.is_relative() || path.lexically_normal() != path ||
         *path.begin() == "..") {
       return Error(ErrorCode::Corrupt,
-                   "what was made is said to have a file outside of the asset's folder: " + name)
+                   "its note lists a file outside of the asset's folder: " + name)
           .in_file(place)
           .with_rule("update.no-base")
           .with_fix("convert into a new folder");
@@ -382,14 +382,14 @@ class AssetUpdate {
                 (edits ? "it stays removed" : "it is taken back");
     } else if (what.field.empty()) {
       message = std::string("it was edited, and the source changed it; ") +
-                (edits ? "the edit is kept" : "that of the source is taken");
+                (edits ? "the edit is kept" : "the source's value is used");
     } else {
       const bool is_value = what.field == layer::fields::default_value && what.key.empty();
       message =
           (is_value ? std::string()
                     : what.field.str() + (what.key.empty() ? "" : "[" + what.key + "]") + ": ") +
           "it was " + shown(what.base) + ", an edit says " + shown(what.edited) + ", the source " +
-          shown(what.source) + "; " + (edits ? "the edit is kept" : "that of the source is taken");
+          shown(what.source) + "; " + (edits ? "the edit is kept" : "the source's value is used");
     }
     Diagnostic finding = file_finding(
         Severity::Warning, "update.conflict", std::move(message), path_of(conflict.file), 0,

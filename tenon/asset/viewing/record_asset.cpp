@@ -86,7 +86,7 @@ Result<void> check_options(const RecordOptions& options) {
     }
   }
   if (!is_background(options.background)) {
-    return refused("record.background", options.background + " is no colour",
+    return refused("record.background", options.background + " is not a colour",
                    "choose light, dark, transparent, or a colour such as #ffffff");
   }
   if (options.panels && !options.camera.prim.empty()) {

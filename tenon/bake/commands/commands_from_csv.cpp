@@ -95,7 +95,7 @@ Result<std::vector<CommandColumn>> read_header(CommandText& text, const CommandN
       return text.place(std::move(column).error());
     }
     if (!seen.insert(name).second) {
-      return text.error(ErrorCode::Parse, "the column " + shown_name(name) + " stands twice",
+      return text.error(ErrorCode::Parse, "the column " + shown_name(name) + " is there twice",
                         "leave one out");
     }
     columns.push_back(*column);
@@ -107,7 +107,7 @@ Result<std::vector<CommandColumn>> read_header(CommandText& text, const CommandN
 Result<double> read_number(const CommandText& text, std::string_view cell, double unit = 1) {
   const std::optional<double> number = parse_double(cell);
   if (!number || !std::isfinite(*number * unit)) {
-    return text.error(ErrorCode::Parse, shown_name(cell) + " is no finite number",
+    return text.error(ErrorCode::Parse, shown_name(cell) + " is not a finite number",
                       "write a number, or nothing where what held goes on");
   }
   return *number * unit;

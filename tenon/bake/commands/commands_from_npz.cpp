@@ -80,7 +80,7 @@ Result<std::vector<CommandColumn>> read_columns(const NpyArray& array, const Com
     const std::string name = array.text(i);
     TENON_TRY(const CommandColumn column, names.find(name));
     if (!seen.insert(name).second) {
-      return wrong(ErrorCode::Parse, "the column " + shown_name(name) + " stands twice",
+      return wrong(ErrorCode::Parse, "the column " + shown_name(name) + " is there twice",
                    "leave one out");
     }
     columns.push_back(column);
@@ -95,8 +95,8 @@ Result<std::vector<double>> read_times(const NpyArray& array) {
     if (!std::isfinite(time) || (i > 0 && time <= times.back())) {
       return wrong(ErrorCode::Parse,
                    "time[" + std::to_string(i) + "] = " + shortest(time) +
-                       (i == 0 ? std::string(" is no finite number")
-                               : " is no finite number later than that before"),
+                       (i == 0 ? std::string(" is not a finite number")
+                               : " is not a finite number above the one before"),
                    "sort the rows by time, each time once");
     }
     times.push_back(time);
@@ -122,7 +122,7 @@ Result<Commands> commands_from_npz(std::shared_ptr<const bytes::FileBytes> file,
     if (std::isinf(value)) {
       return wrong(ErrorCode::Parse,
                    "values[" + std::to_string(i / width) + ", " + std::to_string(i % width) +
-                       "] is no finite number",
+                       "] is not a finite number",
                    "write a number, or NaN where what held goes on");
     }
     commands.values.push_back(value);

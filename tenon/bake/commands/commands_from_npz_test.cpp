@@ -107,10 +107,10 @@ TEST(CommandsFromNpz, WhatCannotBeIsAnErrorThatNamesTheArray) {
       {failure("time", npy("<f8", "2,", bytes_of<double>({NAN, 1}))), "time[0] = nan"},
       {failure("time", npy("<f8", "1,", numbers.substr(0, 8))), "1 times and 2 columns"},
       {failure("columns", npy("|S9", "2,", "/A.target/B.target")), "\"/B.target\""},
-      {failure("columns", npy("|S9", "2,", "/A.target/A.target")), "stands twice"},
+      {failure("columns", npy("|S9", "2,", "/A.target/A.target")), "is there twice"},
       {failure("columns", npy("<f8", "2,", numbers)), "\"columns\" are texts"},
       {failure("values", npy("<f4", "2, 2", bytes_of<float>({0, 0, 0, INFINITY}))),
-       "values[1, 1] is no finite number"},
+       "values[1, 1] is not a finite number"},
       {failure("values", npy("<f8", "2,", numbers)), "has not a number for each"},
   };
   for (const auto& [said, expected] : cases) {

@@ -311,7 +311,7 @@ Result<void> ZipArchive::check_order(std::uint64_t directory) {
     const std::uint64_t head = kLocalSize + entry.name.size();
     if (entry.end < entry.header || entry.end - entry.header < head ||
         entry.end - entry.header - head < entry.size) {
-      return damaged("\"" + entry.name + "\" lies over what comes after it in the zip file");
+      return damaged("\"" + entry.name + "\" overlaps the next entry of the zip file");
     }
     names.push_back(entry.name);
   }
@@ -364,7 +364,7 @@ Result<std::shared_ptr<const FileBytes>> ZipArchive::contents_of(const ZipEntry&
   TENON_CHECK(in.take(header.extra_size));
   const std::size_t start = in.offset();
   if (start > entry.end || entry.end - start < entry.size) {
-    return damaged("\"" + entry.name + "\" lies over what comes after it in the zip file");
+    return damaged("\"" + entry.name + "\" overlaps the next entry of the zip file");
   }
   TENON_CHECK(in.take(entry.size));
   return FileBytes::slice(bytes_, start, static_cast<std::size_t>(entry.size));

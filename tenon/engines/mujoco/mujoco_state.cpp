@@ -185,7 +185,7 @@ Result<void> MujocoSimulation::check_run(const SavedRun& run) const {
     return bad_state("it does not fit the model");
   }
   const Work& work = run.work;
-  return std::isfinite(work.total()) ? Result<void>() : bad_state("its work is no number");
+  return std::isfinite(work.total()) ? Result<void>() : bad_state("its work is not a number");
 }
 
 }  // namespace tenon::engines::mujoco

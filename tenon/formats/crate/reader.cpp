@@ -225,7 +225,7 @@ class LayerBuilder {
     const auto wrong = std::find_if_not(names->begin(), names->end(), is_name);
     if (wrong != names->end()) {
       return crate::corrupt("`" + field.str() + "` names \"" + wrong->str() +
-                            "\", which is no name");
+                            "\", which is not a name");
     }
     return {};
   }

@@ -232,7 +232,7 @@ Result<std::vector<double>> ItemReader::times(ValueWord word) {
   TENON_TRY(const layer::Value value, values_.read(word));
   const auto* numbers = value.get<layer::Array<double>>();
   if (numbers == nullptr) {
-    return corrupt("the times of samples are no list of numbers");
+    return corrupt("the times of samples are not a list of numbers");
   }
   for (std::size_t i = 0; i < numbers->size(); ++i) {
     const bool ascends = i == 0 || (*numbers)[i - 1] < (*numbers)[i];

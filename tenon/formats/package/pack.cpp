@@ -156,7 +156,7 @@ class Packer {
     packed_.push_back({file.name, file.identifier, contents->size(), rewritten, outside});
     if (outside) {
       report(Severity::Info, "package.outside", file,
-             "lies outside of the package's folder and is packed as " + file.name, "");
+             "is outside of the package's folder and is packed as " + file.name, "");
     }
     if (!is_layer_name(file.name) && !is_media_name(file.name)) {
       report(Severity::Warning, "package.file-type", file,

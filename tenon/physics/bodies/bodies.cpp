@@ -127,7 +127,7 @@ void check_frame(const ReadState& state, const PhysicsPrim& found, const Factore
 void check_instance(const ReadState& state, const PhysicsPrim& found) {
   if (found.prim.is_instance_proxy()) {
     state.report(found.prim, Severity::Warning, "body.in-instance",
-                 "the body lies inside an instance: it is simulated, its motion cannot be written "
+                 "the body is inside an instance: it is simulated, its motion cannot be written "
                  "to it",
                  "apply PhysicsRigidBodyAPI to the instance itself, or make it not instanceable");
   }
@@ -169,10 +169,9 @@ Body read_body(ReadState& state, const PhysicsPrim& found, Index scene) {
   body.pose = world_pose(parts, state.units);
   state.body_has_place.push_back(is_finite(body.pose));
   if (!state.body_has_place.back()) {
-    state.report(
-        found.prim, Severity::Error, "body.not-finite",
-        "the body's transform is not made of finite numbers; it stands still at the origin",
-        "author finite transforms");
+    state.report(found.prim, Severity::Error, "body.not-finite",
+                 "the body's transform is not made of finite numbers; it is fixed at the origin",
+                 "author finite transforms");
     body.pose = {};
     body.kinematic = true;
   }

@@ -28,7 +28,7 @@ std::optional<double> positive_number(const ReadState& state, const stage::Prim&
   }
   if (std::isinf(*value)) {
     state.report(prim, name, Severity::Error, "mass.infinite",
-                 name.str() + " is infinite; it is taken as unauthored",
+                 name.str() + " is infinite; it is treated as unauthored",
                  "author a finite value, or make the body kinematic");
     return std::nullopt;
   }
@@ -80,7 +80,7 @@ std::optional<AuthoredInertia> diagonal_inertia(const ReadState& state, const Ph
     if ((*diagonal)[i] < 0 || !std::isfinite((*diagonal)[i])) {
       state.report(found.prim, name, Severity::Error, "mass.inertia-negative",
                    "physics:diagonalInertia has the component " + text_of_float((*diagonal)[i]) +
-                       "; it is taken as unauthored",
+                       "; it is treated as unauthored",
                    "author positive moments of inertia");
       return std::nullopt;
     }
@@ -205,11 +205,11 @@ class BodyMassComputation {
                                   [&](Index i) { return state_.scene.colliders[i].enabled; });
     state_.report(found_.prim, Severity::Warning, "mass.no-volume",
                   !off                    ? "no collider of the body has a volume; a ball of 0.1 m "
-                                            "gives what is not authored"
+                                            "gives the unauthored values"
                   : colliders.size() == 1 ? "the only collider of the body is disabled and weighs "
-                                            "nothing; a ball of 0.1 m gives what is not authored"
+                                            "nothing; a ball of 0.1 m gives the unauthored values"
                                           : "all colliders of the body are disabled and weigh "
-                                            "nothing; a ball of 0.1 m gives what is not authored",
+                                            "nothing; a ball of 0.1 m gives the unauthored values",
                   off ? "enable a collider, or author physics:mass and physics:diagonalInertia"
                       : "author physics:mass and physics:diagonalInertia");
   }
@@ -442,7 +442,7 @@ class BodyMassComputation {
     if (!usable) {
       // M-19
       state_.report(found_.prim, Severity::Error, "mass.unusable",
-                    "mass and inertia are not positive; the body stands still",
+                    "mass and inertia are not positive; the body is fixed",
                     "author a positive physics:mass and physics:diagonalInertia");
       body_.kinematic = true;
     }

@@ -58,7 +58,7 @@ void read_spin_friction(const ReadState& state, const PhysicsPrim& found, Materi
     }
     if (!(*authored >= 0) || !std::isfinite(*authored)) {
       state.report(found.prim, name, Severity::Error, "material.negative",
-                   name.str() + " is " + text_of_float(*authored) + "; it is taken as unauthored",
+                   name.str() + " is " + text_of_float(*authored) + "; it is treated as unauthored",
                    "author a value that is not negative");
       return;
     }
@@ -123,7 +123,7 @@ void report_unbound(const ReadState& state) {
                Severity::Info, "material.none-bound",
                std::to_string(count) + " colliders have no physics material, others do: friction " +
                    shortest(state.scene.unbound.dynamic_friction) +
-                   " is taken; PhysX takes 0.5, Newton and MuJoCo 1",
+                   " is used; PhysX uses 0.5, Newton and MuJoCo 1",
                "bind a physics material to every collider");
 }
 
@@ -153,7 +153,7 @@ void bind_materials(ReadState& state) {
     if (const Path cut = binding.cut_collection; !cut.empty() && told.insert(cut).second) {
       state.not_read(state.stage.prim(cut.parent()), cut.name().str(),
                      "the collection is too large or its expression too costly (docs/limits.md); "
-                     "some of what it holds does not get the material bound to it");
+                     "some of its members do not get the material");
     }
     // S-67, S-68: a binding that wins and has no physics means no physics material.
     const auto material = state.material_of_path.find(binding.material);

@@ -406,7 +406,7 @@ std::optional<ShapeReading> read_faces(ReadState& state, const ShapeSource& sour
   if (mesh.flat && hull) {
     // S-65
     state.report(prim, Severity::Info, "collider.flat-hull",
-                 "the points lie in one plane: the hull is a flat polygon, solid from both sides",
+                 "the points are in one plane: the hull is a flat polygon, solid from both sides",
                  "give the mesh a thickness, or use a Plane or a thin Cube");
   }
   if (kind == Approximation::MeshSimplification) {

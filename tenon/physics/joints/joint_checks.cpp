@@ -123,13 +123,12 @@ void check_joint_start(const ReadState& state, const stage::Prim& prim, const Jo
                         in_world(state, joint.body1, joint.frame1);
   const Misfit misfit = misfit_of(joint, relative);
   if (misfit.gap > kGap || misfit.angle > kAngle) {
-    state.report(prim, Severity::Warning, "joint.frames-apart",
-                 "the frames of the joint are " + text(misfit.gap / state.units.length) +
-                     " units and " + text(misfit.angle / kRadians) +
-                     " degrees apart at the start; " +
-                     (stays(state, joint) ? "the body is held where it stands"
-                                          : "the bodies are moved together"),
-                 "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
+    state.report(
+        prim, Severity::Warning, "joint.frames-apart",
+        "the frames of the joint are " + text(misfit.gap / state.units.length) + " units and " +
+            text(misfit.angle / kRadians) + " degrees apart at the start; " +
+            (stays(state, joint) ? "the body is fixed in place" : "the bodies are moved together"),
+        "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
   }
   if (joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
       joint.kind == JointKind::Distance) {

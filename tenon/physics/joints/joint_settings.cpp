@@ -107,7 +107,7 @@ class SettingReader {
     }
     if (*authored < 0) {
       state_.report(found_.prim, name, Severity::Error, "joint.negative-setting",
-                    name.str() + " is negative; it is taken as unauthored",
+                    name.str() + " is negative; it is treated as unauthored",
                     "author a value that is not negative");
       return;
     }

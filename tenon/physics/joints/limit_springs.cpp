@@ -49,7 +49,7 @@ class SpringReader {
     const double value = state_.values.authored_number(found_.prim, name).value_or(0);
     if (!(value >= 0) || !std::isfinite(value)) {
       state_.report(found_.prim, name, Severity::Error, "joint.negative-setting",
-                    name.str() + " is negative or infinite; it is taken as unauthored",
+                    name.str() + " is negative or infinite; it is treated as unauthored",
                     "author a finite value that is not negative");
       return 0;
     }
@@ -88,7 +88,7 @@ class SpringReader {
     const std::string prefix = "physxPhysicsDistanceJoint:";
     if (joint_.kind != JointKind::Distance) {
       state_.not_read(found_.prim, "PhysxPhysicsDistanceJointAPI",
-                      "the joint is no distance joint");
+                      "the joint is not a distance joint");
       return;
     }
     if (!state_.values.authored_flag(found_.prim, Token(prefix + "springEnabled"))

@@ -19,7 +19,7 @@ constexpr const char* kRule = "mujoco.bad-setting";
 void refuse(const ReadState& state, const PhysicsPrim& found, Token name,
             const std::string& found_value, const std::string& wanted) {
   state.report(found.prim, name, Severity::Error, kRule,
-               name.str() + " is " + found_value + "; it is taken as unauthored",
+               name.str() + " is " + found_value + "; it is treated as unauthored",
                "author " + wanted);
 }
 

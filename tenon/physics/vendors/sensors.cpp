@@ -76,7 +76,7 @@ class SensorReader {
     const bool contact = found.roles.kind == PrimKind::ContactSensor;
     if (found.roles.marked_sensor) {
       refuse_setting(found, state_.tokens.sensor,
-                     "is ignored: the prim's type says what it measures");
+                     "is ignored: the prim's type defines its quantity");
     }
     const bool rays = found.roles.kind == PrimKind::RaycastSensor;
     Sensor sensor;
@@ -128,7 +128,7 @@ class SensorReader {
     const double most = unlimited_or(static_cast<double>((*bounds)[1]));
     if (!std::isfinite(least) || least < 0 || !(most >= least)) {
       refuse_setting(found, tokens_.threshold,
-                     "is no range of forces that begins at 0 or above; all forces count");
+                     "is not a range of forces that begins at 0 or above; all forces count");
       return;
     }
     sensor.min_force = least * state_.units.force();

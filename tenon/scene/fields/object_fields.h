@@ -107,7 +107,7 @@ struct Table<Body> {
                           .role = Role::Identity}),
       field<&Body::kinematic>(
           {.name = "kinematic", .meaning = "its pose is given, never computed"}),
-      field<&Body::enabled>({.name = "enabled", .meaning = "false: it stands still"}),
+      field<&Body::enabled>({.name = "enabled", .meaning = "false: it is fixed"}),
       field<&Body::starts_asleep>(
           {.name = "startsAsleep", .meaning = "it hangs still until it is touched"}),
       field<&Body::scene>(
@@ -517,7 +517,7 @@ struct Table<Joint> {
                                         .meaning = "its bodies touch each other",
                                         .words = "bodies collide"}),
       field<&Joint::exclude_from_articulation>({.name = "excludeFromArticulation",
-                                                .meaning = "it is no part of a tree",
+                                                .meaning = "it is not part of a tree",
                                                 .words = "excluded from the articulation"}),
       field<&Joint::break_force>(
           {.name = "breakForce", .meaning = "null: it never breaks", .unit = Unit::Newton}),

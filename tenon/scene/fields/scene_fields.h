@@ -43,7 +43,7 @@ struct Table<PhysicsScene> {
       field<&PhysicsScene::articulations>({.name = "articulations", .meaning = "by path"}),
       field<&PhysicsScene::tendons>({.name = "tendons", .meaning = "by path"}),
       field<&PhysicsScene::actuators>({.name = "mujocoActuators",
-                                       .meaning = "of MuJoCo, that are no drives of joints",
+                                       .meaning = "of MuJoCo, that are not drives of joints",
                                        .presence = Presence::WhenSet,
                                        .of_vendor = true,
                                        .words = "actuators of MuJoCo"}),
@@ -90,7 +90,7 @@ struct Table<PhysicsScene> {
       field<&PhysicsScene::nesting_states>(
           {.name = "nestingStates", .meaning = "bodies that others carry, over time"}),
       field<&PhysicsScene::not_read>({.name = "notRead",
-                                      .meaning = "what was not taken over from the stage",
+                                      .meaning = "properties of the stage that are not supported",
                                       .role = Role::Provenance}),
       field<&PhysicsScene::meters_per_unit>(
           {.name = "metersPerUnit", .meaning = "of the stage", .role = Role::Provenance}),

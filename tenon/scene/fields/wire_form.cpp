@@ -211,7 +211,7 @@ std::string wire_form(const PhysicsScene& scene) {
 
 Result<PhysicsScene> read_wire_form(std::string_view bytes) {
   if (bytes.substr(0, kMagic.size()) != kMagic) {
-    return Error(ErrorCode::Corrupt, "these bytes are no physics scene");
+    return Error(ErrorCode::Corrupt, "these bytes are not a physics scene");
   }
   SceneDecoder decoder(bytes.substr(kMagic.size()));
   std::uint64_t form = 0;

@@ -113,7 +113,7 @@ class Collector {
         ending == ".mdl" || ending == ".glslfx" || ending == ".osl" || ending == ".oso";
     if (!is_module && unknown_.insert(asset).second) {
       report(Severity::Warning, "structure.asset-missing",
-             "the asset @" + asset + "@ is found nowhere and is not collected",
+             "the asset @" + asset + "@ cannot be found and is not collected",
              "give its folder with --search-path, or correct the path", at);
     }
   }

@@ -191,7 +191,7 @@ class Planner {
           continue;
         }
         if (std::string name = handed_down(content_, at); !name.empty()) {
-          return name + " acts on what is below it";
+          return name + " acts on its descendants";
         }
       }
     }
@@ -347,7 +347,7 @@ std::optional<Disagreement> LinkMoves::compare(const Layer& content, const stage
       continue;
     }
     if (!is || !near(were.local_to_world(was), are.local_to_world(is), kSamePlace)) {
-      return Disagreement{prim.str(), "", "the prim stands elsewhere in the world"};
+      return Disagreement{prim.str(), "", "the prim has another pose in the world"};
     }
   }
   physics::ReadOptions options;

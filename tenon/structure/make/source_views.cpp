@@ -91,7 +91,7 @@ void report_lost_variants(const stage::Stage& stage, Diagnostics& diagnostics) {
       Diagnostic lost = prim.located(
           Severity::Warning, "structure.variants-flattened",
           "the variant set \"" + prim.variant_set_names().front() +
-              "\" is not on the default prim: what it selects stays, the other variants go");
+              "\" is not on the default prim: its selection stays, the other variants are removed");
       lost.fix = "move the variant set to the default prim";
       diagnostics.add(std::move(lost));
     }

@@ -213,7 +213,7 @@ void add_hulls(Build& build, const Collider& collider, bool moves, std::vector<P
 
 void add_plane(Build& build, const Collider& collider, bool moves, std::vector<PlacedShape>& made) {
   if (moves) {
-    build.report(collider.path, "", "planes stand still on Jolt; the body has none");
+    build.report(collider.path, "", "Jolt's planes are static; the body has none");
     return;
   }
   made.push_back({new PlaneShape(static_cast<unsigned>(collider.shape.axis)), {}});

@@ -49,7 +49,7 @@ class ActuatorPass {
 
   /// Why it acts on nothing; else `type_` and `target_` say on what.
   std::string transmission(const MujocoActuator& from) {
-    const char* const missing = "what it acts on is not in the model";
+    const char* const missing = "its target is not in the model";
     switch (from.kind) {
       case Target::None:
         return missing;

@@ -177,7 +177,7 @@ void add_solid(Build& build, const Shape& shape, std::vector<Geometry>& made) {
 
 void add_plane(Build& build, const Collider& collider, bool moves, std::vector<Geometry>& made) {
   if (moves) {
-    build.report(collider.path, "", "planes of PhysX stand still; the body has none");
+    build.report(collider.path, "", "PhysX's planes are static; the body has none");
     return;
   }
   made.push_back(

@@ -84,8 +84,9 @@ void report_joint(Build& build, Index index) {
     }
   }
   if (map.role == JointRole::Maximal && (joint.initial_position || joint.initial_velocity)) {
-    build.report(joint.path, "state",
-                 "joints outside of articulations start where their bodies stand and as they move");
+    build.report(
+        joint.path, "state",
+        "joints outside of articulations start with the poses and velocities of their bodies");
   }
   if (map.role == JointRole::Maximal && joint.armature > 0) {
     build.report(joint.path, "armature", "joints outside of articulations have none in PhysX");
