@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// tenon-worker: reads files in formats of others, one after the other, for the program that started
-// it and that holds the other end of its standard input. Nobody trusts what it answers.
+// tenon-worker: reads files in third-party formats, one after the other, for the program that
+// started it and that holds the other end of its standard input. Its answers are not trusted.
 #include <cerrno>
 #include <memory>
 #include <optional>

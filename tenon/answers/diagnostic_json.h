@@ -36,7 +36,7 @@ Json text_json(const std::string& text);
 /// {"output"}: where the answer was written.
 Json output_json(const std::string& output);
 
-/// {"rule", "page"}: what is said of a rule.
+/// {"rule", "page"}: a rule and its page.
 Json rule_page_json(const std::string& rule, std::string_view page);
 
 }  // namespace tenon::answers

@@ -22,7 +22,7 @@ inline Json or_null(Path path) { return or_null(path.str()); }
 inline Json file_or_null(const std::string& file) {
   return file.empty() ? Json(nullptr) : Json(shown_path(file));
 }
-/// Null for the line or column 0, of which there is none.
+/// Null for the line or column 0, which does not exist.
 inline Json or_null(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
 
 template <class T, class ToJson>

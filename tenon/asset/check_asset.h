@@ -18,7 +18,7 @@ struct CheckOptions {
   OpenOptions open;  ///< with a physics_variant only that one is looked at
   check::Selection rules;
   physics::Readings readings;  ///< how the physics is read
-  /// "isaac-3.0": the files are held to Asset Structure 3.0 as well; empty: to no structure.
+  /// "isaac-3.0": the files are checked against Asset Structure 3.0 as well; empty: no structure.
   std::string profile;
 };
 

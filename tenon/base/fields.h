@@ -10,7 +10,7 @@ namespace tenon {
 struct Diagnostic;
 }
 
-/// The fields of plain structs, found by the compiler: nobody lists them, so none is forgotten.
+/// The fields of plain structs, found by the compiler: without a list, none is forgotten.
 namespace tenon::wire {
 
 /// A placeholder that converts to any field's type.

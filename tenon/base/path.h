@@ -58,8 +58,8 @@ class Path {
     const PathKind last = kind();
     return last == PathKind::Property || last == PathKind::RelationalAttribute;
   }
-  /// A property of a prim, variant or target, as all are that text has words for. That it is one,
-  /// and of which, is known without a look at any table.
+  /// A property of a prim, variant or target, as are all that text can express. That it is one, and
+  /// its owner, is known without a look at any table.
   bool is_direct_property() const { return property_ != 0; }
   bool is_direct_property_of(Path owner) const {
     return element_ == owner.element_ && property_ != 0 && owner.property_ == 0;

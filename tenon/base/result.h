@@ -12,9 +12,9 @@
 
 namespace tenon {
 
-/// A T or the Error that explains why there is none. Ignoring one is a compiler warning. What
-/// std::expected is in C++23, as far as it is used here; a library for it is three times the lines
-/// that tenon.h may have.
+/// A T or the Error that explains why there is none. Ignoring one is a compiler warning. The part
+/// of C++23's std::expected that is used here; a library for it is three times the lines that
+/// tenon.h may have.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -25,9 +25,9 @@ bool is_ros_package(const Files& files, const std::string& folder);
 /// The text of a folder's package.xml; null where it is missing or larger than kPackageXmlBytes.
 std::shared_ptr<const FileBytes> package_xml_of(const Files& files, const std::string& folder);
 
-/// The folder to which robot formats by custom give `file`, a part of the description at `path`:
-/// a folder of meshes, textures or assets beside the description's own folder, or above it by up
-/// to kPartsFolderLevels: robot/urdf/arm.urdf uses robot/meshes, assets/hand/reach.xml uses
+/// The folder in which robot formats by convention keep `file`, a part of the description at
+/// `path`: a folder of meshes, textures or assets beside the description's own folder, or above it
+/// by up to kPartsFolderLevels: robot/urdf/arm.urdf uses robot/meshes, assets/hand/reach.xml uses
 /// assets/stls/hand. None for files elsewhere. Links are judged by where they lead.
 std::optional<std::string> parts_folder(const Files& files, const std::string& path,
                                         const std::string& file);

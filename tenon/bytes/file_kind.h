@@ -30,7 +30,7 @@ bool is_png(std::string_view bytes);
 /// A module of NVIDIA's Material Definition Language: "mdl 1.7;" behind comments.
 bool is_mdl(std::string_view text);
 
-/// The rule of an error about a file that is something else than what it is named as.
+/// The rule of an error about a file whose contents do not match its name.
 inline constexpr const char* kWrongKindRule = "read.wrong-kind";
 /// The rule of an error about a file that is there and cannot be read: a folder, a pipe.
 inline constexpr const char* kUnreadableRule = "read.unreadable";

@@ -19,7 +19,7 @@ namespace tenon::bytes {
 namespace {
 
 constexpr const char* kChanged = "file.changed";
-constexpr std::size_t kDigestBytes = 64u << 20;  // larger files are told apart by their times
+constexpr std::size_t kDigestBytes = 64u << 20;  // larger files are compared by their times
 
 constexpr std::size_t kMostMissing = 10'000;
 

@@ -50,7 +50,7 @@ bool authors_inertia(const stage::Prim& prim) {
 
 }  // namespace
 
-// S-41: not above zero means unset; below zero nobody can mean.
+// S-41: not above zero means unset; below zero is a mistake.
 void check_negative_mass(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
     for (const char* name : {"physics:mass", "physics:density"}) {

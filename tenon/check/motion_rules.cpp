@@ -23,7 +23,7 @@ using scene::Index;
 using scene::Joint;
 
 constexpr double kDefaultStep = 0.002;  ///< [s] where the asset asks for none
-constexpr double kWeak = 1.05;          ///< load over force that is told
+constexpr double kWeak = 1.05;          ///< load over force that is reported
 constexpr double kAtLimit = 1e-3;       ///< [rad or m]
 
 Pose frame_in_world(const scene::PhysicsScene& scene, const Joint& joint) {

@@ -17,7 +17,7 @@ using scene::Dof;
 using scene::Joint;
 using scene::JointKind;
 
-constexpr double kWeakerDrive = 0.97;  ///< share of its spring's moment that is told
+constexpr double kWeakerDrive = 0.97;  ///< share of its spring's moment that is reported
 constexpr double kTurn = 2 * kPi;      ///< [rad]
 
 bool pulls(const scene::Drive& drive) {

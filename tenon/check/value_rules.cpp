@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers and operations that are well formed and that nobody can mean: sizes that are not
-// positive, a mass of zero with moments of inertia, gravity that does not point down, targets of
-// drives that no gain pulls to, joints that break at once, operations that no order names.
+// Numbers and operations that are well formed but cannot be meant: sizes that are not positive, a
+// mass of zero with moments of inertia, gravity that does not point down, targets of drives that no
+// gain pulls to, joints that break at once, operations that no order names.
 #include <algorithm>
 #include <cmath>
 #include <string_view>

@@ -71,7 +71,7 @@ class Builder {
     return inputs_.muted != nullptr && inputs_.muted->count(layer.identifier()) != 0;
   }
 
-  /// Whether this is as much as a stack may hold, which is told the first time.
+  /// Whether this is the maximum of a stack, which is reported the first time.
   bool is_full(const layer::Layer& layer) {
     const bool full = stack_.layers.size() >= limits::kLayerStackLayers ||
                       stack_.errors.size() >= limits::kStageFindings ||

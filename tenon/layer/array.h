@@ -22,8 +22,8 @@
 namespace tenon::layer {
 
 /// An array of numbers, or of vectors, quaternions and matrices of them. Its elements never change;
-/// copies share them. They are its own or lie in memory of somebody else, such as a mapped file,
-/// that is kept alive. The size of one pointer; one allocation. To make one, fill a std::vector.
+/// copies share them. They are its own or in memory of another owner, such as a mapped file, that
+/// is kept alive. The size of one pointer; one allocation. To make one, fill a std::vector.
 template <class T>
 class NumberArray {
  public:

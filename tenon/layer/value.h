@@ -154,7 +154,7 @@ class Value {
     }
     return fallback;
   }
-  /// The contents, moved out where nobody shares them; the value is empty afterwards. It must hold
+  /// The contents, moved out where they are not shared; the value is empty afterwards. It must hold
   /// a T, which is no array and too large to be kept inline.
   template <class T>
   T take() {

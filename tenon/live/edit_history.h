@@ -17,7 +17,7 @@ namespace tenon::live {
 using WriteFiles = Function<Result<void>(const std::vector<EditedFile>& files)>;
 
 /// Edits of files that were written, byte by byte, so that each can be taken back and made again
-/// as long as nobody else has touched its files.
+/// as long as no one else has changed its files.
 class EditHistory {
  public:
   /// Keeps the bytes that the files have, lets `write` write the edits, and keeps what they have

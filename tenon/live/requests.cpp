@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The table of requests, and what those do that steer the simulation. A request that cannot be done
-// is an error that the page is told, and changes nothing.
+// is an error that the page receives, and changes nothing.
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -21,7 +21,7 @@ namespace {
 
 using PaceClock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostWaiting = 4096;  // messages that nobody has looked at yet
+constexpr std::size_t kMostWaiting = 4096;  // messages not yet looked at
 constexpr std::size_t kMostLate = 16;       // answers that are to be made
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
 constexpr auto kIdleTime = std::chrono::milliseconds(100);  // also between looks at files
@@ -35,7 +35,7 @@ struct MadeAnswer {
   Result<Json> result;
 };
 
-/// What has come to the session.
+/// Input of the session.
 struct Letters {
   std::deque<serve::ClientEvent> events;
   std::deque<MadeAnswer> answers;

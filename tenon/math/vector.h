@@ -67,7 +67,7 @@ constexpr double dot(const Vec<double, N>& a, const Vec<double, N>& b) {
   return sum;
 }
 
-/// Written out, for a loop is not unrolled where this is called for every point of a mesh.
+/// Written out, since a loop is not unrolled where this is called for every point of a mesh.
 template <class T>
 bool is_finite(const Vec<T, 2>& a) {
   return is_finite(a[0]) && is_finite(a[1]);

@@ -24,7 +24,7 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-/// Lets the worker read the file; what it says is checked before anybody uses it.
+/// Lets the worker read the file; its answer is checked before it is used.
 Result<MeshScene> read_elsewhere(const std::string& path, const MeshReading& reading,
                                  Diagnostics& diagnostics) {
   std::vector<std::string> opened;

@@ -8,7 +8,7 @@
 /// Internal to this folder.
 namespace tenon::mjcf {
 
-/// What a model asks of MuJoCo's compiler about bodies and looks that nobody needs.
+/// A model's options of MuJoCo's compiler on unneeded bodies and visuals.
 struct Simplified {
   bool fuses_static = false;
   bool drops_visuals = false;

@@ -184,7 +184,7 @@ void AttributeValues::report_target(const stage::Prim& prim, Token name, Path ta
   diagnostics_->add(std::move(finding));
 }
 
-// S-3: OpenUSD takes the fallback in silence.
+// S-3: OpenUSD silently uses the fallback.
 void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::ValueType wanted,
                                   bool wanted_array, bool converted) const {
   layer::Value room;

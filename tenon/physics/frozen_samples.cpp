@@ -39,7 +39,7 @@ std::vector<FrozenSample> frozen_samples(const ReadState& state) {
   if (!state.values.stage_is_animated()) {
     return frozen;
   }
-  std::unordered_set<Path> told;  // prototypes of point instancers are said of once
+  std::unordered_set<Path> told;  // prototypes of point instancers are reported once
   for (const PhysicsPrim& found : state.walk.prims) {
     if (told.insert(found.prim.path()).second) {
       add_frozen(state, found.prim, frozen);

@@ -49,7 +49,7 @@ ReadState begin(const stage::Stage& stage, const ReadOptions& options, Diagnosti
   return state;
 }
 
-/// What is said of a prototype is said once, not for each of its instances.
+/// Findings on a prototype are reported once, not for each of its instances.
 void append_once(const Diagnostics& found, Diagnostics& diagnostics) {
   std::unordered_set<std::string> said;
   for (const Diagnostic& finding : found) {

@@ -58,7 +58,7 @@ int fit_of(Token api, std::string_view word) {
   return is_of_others("Joint") || is_of_others("Material") || is_of_others("Collision") ? 0 : 1;
 }
 
-/// Something is said there: a value, at some time, or a target.
+/// The property has an opinion: a value, at some time, or a target.
 bool is_said(const stage::Prim& prim, Token name) {
   return prim.is_relationship(name) ? !prim.relationship(name).targets().empty()
                                     : prim.attribute(name).has_authored_value();

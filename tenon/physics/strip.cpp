@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Names decide what is physics. API schemas and properties are told by prefixes, so what a known
-// vendor adds later is found as well. A prim type also has to be in the schema registry.
+// Names decide what is physics. API schemas and properties are recognized by prefixes, so what a
+// known vendor adds later is found as well. A prim type also has to be in the schema registry.
 // Properties and API schemas go first. Then prims are judged from the deepest up, so that a parent
 // is judged when its remaining children are known. A prim of a physics type goes when it has no
 // children, else it loses its type. An over goes only when the removal itself emptied it.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Everything that is read from attributes at the start is read the same way at each later sample;
-// what there is to say about it was said at the start.
+// its findings were reported at the start.
 #include "tenon/physics/switches.h"
 
 #include "tenon/physics/joints/joint_limits.h"

@@ -6,8 +6,8 @@
 
 namespace tenon::robot {
 
-/// Angle of view from the lower to the upper edge [degrees], 45 where nothing is said;
-/// orthographic: the length between the two [m].
+/// Angle of view from the lower to the upper edge [degrees], 45 by default; orthographic: the
+/// length between the two [m].
 double field_of_view(const Camera& camera);
 
 /// A lens in MuJoCo's words: its focal lengths in both directions, and where the axis hits the

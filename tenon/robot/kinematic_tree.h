@@ -13,7 +13,7 @@ namespace tenon::robot {
 
 /// How the links of a model hang together.
 struct KinematicTree {
-  Index root = 0;  ///< the one link that is nobody's child
+  Index root = 0;  ///< the one link without a parent
   /// Links, each after its parent, children in the order of their joints, depth first.
   std::vector<Index> order;
   std::vector<std::optional<Index>> joint_to_parent;  ///< (link_count), into RobotModel::joints

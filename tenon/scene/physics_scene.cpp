@@ -132,7 +132,7 @@ bool SwitchTrack::at(double seconds) const {
 
 namespace {
 
-/// Between two bounds of which either may be open.
+/// Between two bounds, either of which may be open.
 double between(double a, double b, double fraction) {
   return std::isfinite(a) && std::isfinite(b) ? a + (b - a) * fraction : a;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A server for one program on one machine: pages that it was handed, behind a secret token, and
+// A server for one program on one machine: the pages given to it, behind a secret token, and
 // WebSockets that carry text both ways and frames of bytes to every client. It has no files behind
 // it, so there is no path to leave. What untrusted clients can make it keep is bounded by
 // ServerLimits.
@@ -37,7 +37,7 @@ struct ClientEvent {
 
 /// What one server keeps for others at most, and how long it waits for them.
 struct ServerLimits {
-  std::size_t connections = 32;  ///< at the same time; more are told so and closed
+  std::size_t connections = 32;  ///< at the same time; further ones get an answer and are closed
   std::size_t header_bytes = 8 << 10;
   std::size_t message_bytes = 64 << 10;  ///< of what a client says
   std::size_t waiting_bytes = 64 << 20;  ///< of text that a client has not taken yet
@@ -66,7 +66,7 @@ class Server {
 
   const std::string& token() const;
   std::uint16_t port() const;
-  /// Nobody but programs of this machine can reach it.
+  /// Only programs of this machine can reach it.
   bool is_local() const;
   std::string url() const;  ///< "http://127.0.0.1:4711/TOKEN/"
 

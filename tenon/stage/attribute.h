@@ -36,8 +36,8 @@ class Attribute : public Property {
   /// schema fallback. Empty when there is none or it is blocked. Interpolated linearly where the
   /// type allows it.
   layer::Value get(Time time = {}) const;
-  /// What get() gives, where it stands, while the stage lives and nobody edits its layers: no copy
-  /// is made. Null when reading it takes more than to find it (asset paths, time codes, path
+  /// The value of get() in place, while the stage lives and its layers are not edited: no copy is
+  /// made. Null when reading it takes more than to find it (asset paths, time codes, path
   /// expressions, edits of arrays, blocks).
   const layer::Value* value_in_place() const;
   /// The value when it is exactly a T.

@@ -8,7 +8,7 @@ namespace tenon::stage {
 
 /// Counts the prims of the stage with those below instances, each as often as it is met on a walk
 /// over all of them. Prototypes within prototypes multiply: a few kilobytes can mean more prims
-/// than anybody walks over. Instances that lead beyond the bound (StageOptions) stay without
+/// than any walk can visit. Instances that lead beyond the bound (StageOptions) stay without
 /// anything below them, and a diagnostic `stage.too-many-prims` names the first of them.
 void bound_instances(StageData& data);
 

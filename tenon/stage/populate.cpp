@@ -111,7 +111,7 @@ class Populator {
   /// Arcs that multiply give the same finding for every prim that they bring in.
   void add_findings(const Diagnostics& found) {
     for (const Diagnostic& one : found.items()) {
-      // That the stage is not whole is said in any case.
+      // An incomplete stage is reported in any case.
       if (data_.diagnostics.size() < limits::kStageFindings || compose::is_work_exceeded(one)) {
         data_.diagnostics.add(one);
       } else if (!too_many_findings_reported_) {

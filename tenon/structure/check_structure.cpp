@@ -3,8 +3,8 @@
 //
 // Files are checked by the tables of the layout, in two passes: overs do not repeat the types of
 // prims, and any file may hold the arc that leads to another, so types, instances and arcs of all
-// files are learned before each spec is held to what its file may own. What shows only when layers
-// are composed, dangling targets and live colliders, is checked on a stage for each variant.
+// files are learned before each spec is checked against what its file may own. What shows only when
+// layers are composed, dangling targets and live colliders, is checked on a stage for each variant.
 #include "tenon/structure/check_structure.h"
 
 #include <algorithm>
@@ -139,7 +139,7 @@ class FileChecker {
 
   void check_owner(const Layer& layer, Role role, Path path, const Ownership& owner,
                    const std::string& what, StatementPart part = {}) {
-    // Whatever belongs to an engine nobody knows, or to a set of its own, stands with it.
+    // Files of an unknown engine, or of a set of its own, stay with it.
     if (role != Role::Variant && role != Role::Engine && !owner.may_be_in(role) &&
         !is_at_home(layer, role, path.prim(), owner.owner)) {
       add(Severity::Error, "structure.wrong-layer", layer, path,

@@ -21,7 +21,7 @@ using PathMap = std::function<Path(Path)>;
 std::vector<Path> prims_below(const layer::Layer& layer, Path root = Path::absolute_root());
 /// Child prims of a prim that are in the layer, with a spec for each.
 std::vector<Path> child_prims(const layer::Layer& layer, Path prim);
-/// A child of `parent` that nobody is: of that name, or else with a number, `name_1`.
+/// An unused child path of `parent`: of that name, or else with a number, `name_1`.
 Path free_child(Path parent, const std::string& name, const std::function<bool(Path)>& is_taken);
 /// Properties of a prim that are in the layer, with a spec for each.
 std::vector<Path> properties_of(const layer::Layer& layer, Path prim);

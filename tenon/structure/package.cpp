@@ -19,7 +19,7 @@ namespace fields = layer::fields;
 
 constexpr std::string_view kRoot = "/package/";
 
-/// A fault of the writers, for the layer comes from no file.
+/// A fault of the writers, since the layer comes from no file.
 Error unreadable(const Error& cause, const std::string& name) {
   return Error(ErrorCode::Invalid, "the structured asset could not be read: " + cause.to_string())
       .in_file(name)

@@ -60,7 +60,7 @@ struct WrittenState {
   std::vector<std::string> written;  ///< names of files that are as they were written
   std::vector<std::string> edited;   ///< names of those that differ, or are gone
 };
-/// Of the asset that `file` opens; of a file that is none, or has no note, nothing is said.
+/// Of the asset that `file` opens; nothing for other files, or without a note.
 WrittenState written_state(const std::string& file);
 
 /// The copy that tells edits of the asset that `opening` opens from the written state, in the

@@ -122,7 +122,7 @@ bool take_contact_spring(pugi::xml_node setting, robot::Link& link) {
   return true;
 }
 
-/// What is said of all shapes of a link; false: it is something else, or no number.
+/// A setting for all shapes of a link; false: it is something else, or not a number.
 bool take_surface(pugi::xml_node setting, robot::Link& link) {
   const std::string_view name = setting.name();
   if (name == "kp" || name == "kd") {
@@ -213,7 +213,7 @@ bool take_camera(pugi::xml_node sensor, const Pose& pose, GazeboSettings& settin
 }
 
 /// The angles at which rays lie, of <horizontal> or <vertical>; empty where it makes no sense. One
-/// ray straight ahead where nothing is said.
+/// ray straight ahead by default.
 std::vector<double> scan_angles(pugi::xml_node scan, GazeboSettings& settings) {
   if (!scan) {
     return {0};

@@ -3,8 +3,8 @@
 //
 // The name of a package says no folder. A folder given for it is the only one looked in. Else the
 // folders from that of the description upward are tried, then the search paths.
-// Finding a file does not allow reading it, since a description may come from anybody. A folder of
-// the package's name is enough to look into it, but a package.xml has to make it one of the
+// Finding a file does not allow reading it, since a description may be untrusted. A folder of the
+// package's name is enough to look into it, but a package.xml has to make it one of the
 // description's own. In the end each file is checked against the folders that may be read.
 #include "tenon/urdf/mesh_paths.h"
 

@@ -51,7 +51,7 @@ Result<void> check_root(const XmlReader& xml, pugi::xml_node root) {
   return {};
 }
 
-/// What simulators read beside the robot, and what of it is told elsewhere.
+/// Elements for simulators beside the robot, and those that are reported elsewhere.
 struct Extension {
   std::string_view name;
   const char* what;

@@ -148,7 +148,7 @@ class UsdMeshReader {
     }
   }
 
-  /// Nearly all triangles have their own normal: nobody needs to be told of them.
+  /// Nearly all triangles have their own normal: they are not reported.
   void look_for_flat_faces(const layer::Array<int>& counts) {
     std::size_t flat = 0;
     std::size_t all = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a command line names is looked for in the table of kinds and in the stage of each selection,
-// so that every mistake in it is told before there is an edit.
+// so that every mistake in it is reported before there is an edit.
 #include "tenon/asset/authoring/requested_kinds.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // All assets add to one list of findings. They share layers, so a finding counts once by its place,
 // rule and message. Where fixes are wanted, an asset is checked, what they make of its files is
 // written, and it is checked again, so that the findings are those that are left; where nothing is
-// written, they are those of the first check. The baseline is held against the whole list at the
+// written, they are those of the first check. The baseline is compared with the whole list at the
 // end, because it says how many equal findings are known. An asset may name layers of others, which
 // are not its to change: only its own files, or those of the assets to check, are corrected.
 #include "tenon/asset/checking/check_assets.h"

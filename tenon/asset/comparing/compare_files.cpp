@@ -199,7 +199,7 @@ bool are_packages(const SidePair& sides, const CompareOptions& options) {
          (is_package(sides.before, options) || is_package(sides.after, options));
 }
 
-/// What is compared, as people are told, and the differences.
+/// The names of the compared files, as reported, and their differences.
 Result<std::string> compare(const SidePair& sides, const CompareOptions& options,
                             Diagnostics& diagnostics, Differences& found) {
   if (options.mode != CompareMode::Files) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Each engine opens the asset for itself, because each may select a variant of its own; what their
-// findings have in common is told once. All run for the same time, which the first one decides.
+// findings have in common is reported once. All run for the same time, which the first one decides.
 #include "tenon/asset/comparing_engines/compare_engines.h"
 
 #include <algorithm>

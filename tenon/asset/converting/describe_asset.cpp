@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// With the files beside it that it names. It says what was written, for the next time.
+/// With the files beside it that it names. It records what was written, for the next run.
 NotedFiles noted(const std::string& text, const std::map<std::string, std::string>& files,
                  const std::string& output) {
   const fs::path folder = fs::path(output).parent_path();

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The seal of the asset at hand is held against that of its conversion. The text is given out as it
-// is, and nobody here reads it: it is as much the asset's own as a texture. Only the numbers of
-// files in it are replaced, by places beside the output, and their bytes come from where the asset
-// may read.
+// The seal of the asset is compared with that of its conversion. The text is given out as it is,
+// and nobody here reads it: it is as much the asset's own as a texture. Only the numbers of files
+// in it are replaced, by places beside the output, and their bytes come from where the asset may
+// read.
 #include "tenon/asset/converting/kept_mjcf.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ std::string named_few(const std::vector<std::string>& words) {
                                : text;
 }
 
-/// What is edited for PhysX alone does not go into a model for MuJoCo, which is said.
+/// Edits for PhysX alone do not go into a model for MuJoCo, which is reported.
 void leave_out_physx(std::vector<std::string>& changed, Diagnostics& diagnostics) {
   std::vector<std::string> left;
   std::erase_if(changed, [&](const std::string& word) {

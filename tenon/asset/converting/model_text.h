@@ -34,12 +34,12 @@ class ModelText {
   /// An element of the first level, made where there is none.
   pugi::xml_node section(const char* tag);
 
-  /// What the element says, or its class, or a class around that; empty: nobody.
+  /// The attribute of the element, of its class, or of a class around that; empty: of none.
   std::string value(pugi::xml_node node, const char* attribute) const;
   std::vector<double> numbers(pugi::xml_node node, const char* attribute) const;
   static void set(pugi::xml_node node, const char* attribute, const std::string& value);
   /// Sets the first numbers of an attribute; those that follow stay. `unset` are those that count
-  /// where nobody says it.
+  /// where none has it.
   void set_numbers(pugi::xml_node node, const char* attribute, const std::vector<double>& numbers,
                    const std::vector<double>& unset = {}) const;
 

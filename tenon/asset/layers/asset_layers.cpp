@@ -171,7 +171,7 @@ std::map<std::string, std::string> AssetLayers::new_places(const std::string& ou
   return places;
 }
 
-/// A folder may hold the asset itself, whose layers nobody wanted to be replaced.
+/// A folder may hold the asset itself, whose layers must not be replaced.
 Result<void> AssetLayers::check_apart(const std::map<std::string, std::string>& places) const {
   const bytes::Files& files = resolver_.options().files;
   for (const auto& [from, to] : places) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A selection is held against the composed stage, which knows the prim, the set and the variant,
+// A selection is checked against the composed stage, which knows the prim, the set and the variant,
 // before it is authored. In place, on standard output and beside the asset the result is its root
 // layer with the selection, and text keeps its layout. In another folder the relative asset paths
 // of that layer would lead nowhere, so the result there is a new layer with the asset as sublayer.

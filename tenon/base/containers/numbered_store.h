@@ -9,13 +9,13 @@
 
 namespace tenon {
 
-/// Sets `block` to memory that is not touched, if nobody else does at the same time.
+/// Sets `block` to untouched memory, unless another thread does at the same time.
 void add_block(std::byte*& block, std::size_t size);
 
 /// Objects by number, which are never moved or freed; a number has four bytes. Threads may make
 /// objects of different numbers at once. A caller gets a number from the thread that made its
 /// object, so looking it up needs no ordering of its own. Static: its table of blocks has a place
-/// for each that there can be, of which the system gives those that are touched.
+/// for each possible block; the system provides those that are touched.
 template <class T>
 class NumberedStore {
  public:
@@ -24,7 +24,7 @@ class NumberedStore {
   NumberedStore& operator=(const NumberedStore&) = delete;
   ~NumberedStore() = default;
 
-  /// The object of a number that somebody made room for.
+  /// The object of a number for which room was made.
   T& operator[](std::uint32_t number) const {
     return *std::launder(reinterpret_cast<T*>(blocks_[number / kBlock]) + number % kBlock);
   }

@@ -9,9 +9,9 @@
 
 namespace tenon {
 
-/// A table, open to the next free slot, of numbered things that are told apart by `tag`, a part of
-/// their hash: a slot keeps it, so that few others are looked at. Slots are in the order of tags,
-/// whatever their count is, which grows by half: twice as many would be empty for long.
+/// A table, open to the next free slot, of numbered things that are distinguished by `tag`, a part
+/// of their hash: a slot keeps it, so that few others are looked at. Slots are in the order of
+/// tags, whatever their count is, which grows by half: twice as many would be empty for long.
 class TagSlots {
  public:
   /// The number of the thing with this tag that `is_it` says yes to; where there is none, that of

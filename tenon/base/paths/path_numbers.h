@@ -13,7 +13,7 @@
 
 namespace tenon {
 
-/// Numbers, from 1 on, of things by the path that each of them has: four bytes a slot, for the
+/// Numbers, from 1 on, of things by the path that each of them has: four bytes a slot, since the
 /// paths are not kept here. `path_of(number)` tells that of a number that was entered before,
 /// always the same one, or the empty path once the thing is gone.
 class PathNumbers {

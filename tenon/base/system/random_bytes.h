@@ -10,7 +10,7 @@
 namespace tenon {
 
 /// `count` random bytes (at most 256) from the operating system, as hexadecimal digits, two for
-/// each: what nobody can guess. ErrorCode::Io where the system gives none.
+/// each: they cannot be guessed. ErrorCode::Io where the system gives none.
 Result<std::string> random_hex(std::size_t count);
 
 }  // namespace tenon

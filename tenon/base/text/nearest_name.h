@@ -20,7 +20,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& names);
 
 /// The same for many names against one list: each is looked for once, and no more than a thousand
-/// of them, for the search is long.
+/// of them, since the search is long.
 class NearestNames {
  public:
   explicit NearestNames(std::vector<std::string_view> names) : names_(std::move(names)) {}

@@ -37,7 +37,7 @@ inline std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
 /// storage: it depends on the order of bytes in the machine.
 inline std::uint64_t text_hash(std::string_view text) {
   constexpr std::uint64_t kStart = 0x9E3779B97F4A7C15u;   // digits of the golden ratio
-  constexpr std::uint64_t kFactor = 0xD1B54A32D192ED03u;  // odd, bits as if thrown
+  constexpr std::uint64_t kFactor = 0xD1B54A32D192ED03u;  // odd, random bits
   const auto mix = [](std::uint64_t before, std::uint64_t more) {
     return folded_product(before ^ more, kFactor);
   };

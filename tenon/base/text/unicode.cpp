@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Characters are decoded one by one and looked up in ranges made of Unicode's tables. Most text is
-// ASCII, which is told by its bytes.
+// ASCII, which is detected by its bytes.
 #include "tenon/base/text/unicode.h"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 // believed only where it can do no harm: a plain file of this user and of bounded size, about files
 // below its own folder without links on the way, that moves nothing but the hidden files of
 // transactions. And only where it was written: its text names its own file by number and time of
-// birth, which nobody can foretell who packs a journal into an archive or a repository.
+// birth, which cannot be predicted by someone who packs a journal into an archive or repository.
 #include "tenon/bytes/write/edit_journal.h"
 
 #include <algorithm>

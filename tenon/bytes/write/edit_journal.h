@@ -20,7 +20,7 @@ struct CommitStep {
   std::string to;
 };
 
-/// What has come of the steps.
+/// The state of the steps.
 struct StepsDone {
   int error = 0;          ///< 0 or an error number
   std::size_t count = 0;  ///< steps before the one that failed

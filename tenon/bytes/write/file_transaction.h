@@ -18,7 +18,7 @@ struct CommitOptions {
   bool in_place = false;
   /// Missing folders of files are made; without this they are an error.
   bool make_folders = false;
-  /// Asked once nobody else can write, before anything changes; its Error ends the commit.
+  /// Called once no one else can write, before anything changes; its Error ends the commit.
   std::function<Result<void>()> check = nullptr;
 };
 

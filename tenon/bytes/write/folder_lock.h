@@ -11,8 +11,8 @@
 namespace tenon::bytes {
 
 /// Advisory locks (flock) on folders, held until it ends; children of this process hold them, too.
-/// They are taken in one order by everybody, so that nobody waits in a cycle. Folders that cannot
-/// be locked (no flock there, no permission to list them) are skipped.
+/// All transactions take them in one order, so that none waits in a cycle. Folders that cannot be
+/// locked (no flock there, no permission to list them) are skipped.
 class FolderLock {
  public:
   /// Waits for others, half a minute at most: then ErrorCode::Io, rule "file.locked".

@@ -45,7 +45,7 @@ class NewFile {
   const std::string& name() const { return name_; }
   /// Where a file without a name can be linked from, by this process and its children.
   std::string link_source() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-  /// The name is somebody else's to remove from now on.
+  /// From now on another owner removes the name.
   void let_go() { name_.clear(); }
 
  private:

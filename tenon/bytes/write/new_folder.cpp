@@ -34,7 +34,7 @@ int write_new_file(const std::string& path, std::string_view contents) {
 
 std::string parent_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 
-/// The lock on a folder that nobody else has; -1 where somebody has, or where there are no locks.
+/// An exclusive lock on a folder; -1 where another process has it, or where there are no locks.
 int lock_of(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {

@@ -80,7 +80,7 @@ bool closes_cycle(const Indexer& indexer, const Arc& arc, Site site) {
 
 void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
   constexpr std::size_t kArcs = 20;   // told at most
-  constexpr std::size_t kText = 800;  // bytes, after which no more are told
+  constexpr std::size_t kText = 800;  // bytes, after which no more are reported
   std::string chain = quoted(*site.layer_stack->root, site.path);
   std::string_view word = verb(arc.kind);
   std::size_t length = 0;

@@ -98,7 +98,7 @@ bool find_authored_selection(Indexer& indexer, const TranslatedPath& from, const
 }
 
 /// Many tasks ask for the same set; as long as the graph stays as it is, so does the answer. One
-/// that comes with findings is found again, so that these are told each time.
+/// that comes with findings is found again, so that these are reported each time.
 std::string selected_variant(Indexer& indexer, const Task& task) {
   const NodeGraph& graph = indexer.graph;
   const TranslatedPath from = translate_to_root(graph, task.node, task.set_path);

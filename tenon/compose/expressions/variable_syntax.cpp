@@ -4,7 +4,7 @@
 // A parser by recursive descent, no deeper than kExpressionDepth. Items of a list are read as
 // scalars and arguments of a call as bodies, which keeps lists out of lists while calls may take
 // them. Number of arguments and names of functions are checked here, so that evaluation may rely on
-// them. The first failure is the one that is told, with its place.
+// them. The first failure is reported, with its place.
 #include "tenon/compose/expressions/variable_syntax.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 namespace tenon::compose {
 namespace {
 
-/// One of the last few shapes, of which a scene has not many, or a new one.
+/// One of the last few shapes (a scene has few), or a new one.
 template <class T>
 const T* find_lately(std::deque<T>& shapes, const T& shape) {
   std::size_t left = 8;

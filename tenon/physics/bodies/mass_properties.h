@@ -14,7 +14,7 @@
 
 namespace tenon::physics {
 
-inline constexpr double kDefaultDensity = 1000;  ///< [kg/m^3] where nothing else is said (S-39)
+inline constexpr double kDefaultDensity = 1000;  ///< [kg/m^3] where none is authored (S-39)
 inline constexpr double kDefaultMass = 1;  ///< units of mass, of a body without colliders (S-42)
 inline constexpr double kDefaultRadius = 0.1;  ///< [m] of the ball that gives its inertia (M-18)
 

@@ -69,7 +69,7 @@ double read_max_force(const ReadState& state, const stage::Prim& prim, Token nam
   return force * unit;
 }
 
-/// A gain in the file's own unit, as it is: one below zero acts, and is told (S-102).
+/// A gain in the file's own unit, as it is: one below zero acts, and is reported (S-102).
 double read_gain(const ReadState& state, const stage::Prim& prim, Token name) {
   const double gain = state.values.number(prim, name).value_or(0);
   if (gain < 0) {

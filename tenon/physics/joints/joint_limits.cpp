@@ -3,7 +3,7 @@
 //
 // An open side is infinite in memory, so that limits of the limit API narrow those of the joint by
 // minimum and maximum. On a D6 joint each limit stays by itself, ordered by degree of freedom. A
-// lower limit above the upper one is kept as it is, for it locks the axis (S-98). A minimum
+// lower limit above the upper one is kept as it is, since it locks the axis (S-98). A minimum
 // distance above the maximum is an error and is lowered to it (S-97).
 #include "tenon/physics/joints/joint_limits.h"
 

@@ -35,7 +35,7 @@ struct TendonTokens {
   Token range_max{"mjc:range:max"};
 };
 
-/// Settings that are handed on as they are.
+/// Settings that are passed on as they are.
 constexpr const char* kSettings[] = {"mjc:actuatorfrclimited",
                                      "mjc:actuatorfrcrange:max",
                                      "mjc:actuatorfrcrange:min",

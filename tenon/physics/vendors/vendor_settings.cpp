@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the asset says and the description does not hold: vendors' settings, per-face materials,
-// point instancers. Listed, so that nothing is lost in silence.
+// point instancers. Listed, so that nothing is lost silently.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -60,7 +60,7 @@ void note_instancer(ReadState& state, const PhysicsPrim& found) {
 }  // namespace
 
 void note_what_is_not_read(ReadState& state) {
-  std::unordered_set<Path> told;  // prototypes of point instancers are said of once
+  std::unordered_set<Path> told;  // prototypes of point instancers are reported once
   DefinitionMemo not_read;
   for (const stage::Prim& prim : state.walk.vendor_prims) {
     if (told.insert(prim.path()).second) {

@@ -45,7 +45,7 @@ bool lists_agree(DataView a, DataView b, bool (*agree)(DataView, DataView)) {
   if (count != b.size()) {
     return false;
   }
-  // The same bytes, as of meshes that nobody touched.
+  // The same bytes, as of unchanged meshes.
   if (count == 0 ||
       (a.type->item->is_flat && std::memcmp(a[0].at, b[0].at, count * a.type->item->size) == 0)) {
     return true;

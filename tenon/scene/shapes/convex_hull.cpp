@@ -25,7 +25,7 @@ extern "C" {
 namespace tenon::scene {
 namespace {
 
-/// Files that Qhull writes its remarks to; nobody reads them.
+/// Files that Qhull writes its remarks to; they are not read.
 std::FILE* nowhere() {
   static std::FILE* const file = std::fopen("/dev/null", "w");
   return file;

@@ -120,7 +120,7 @@ void order_children(const Spec& layer_spec, Spec& merged) {
   merged.set(fields::primChildren, std::move(names));
 }
 
-// Values of attributes stay even where nobody knows their type.
+// Values of attributes stay even where their type is unknown.
 bool is_dropped(const layer::Field& field) {
   return field.name == fields::subLayers || field.name == fields::subLayerOffsets ||
          (field.value.holds<layer::UnregisteredValue>() && field.name != fields::default_value);

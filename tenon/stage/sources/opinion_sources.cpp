@@ -73,7 +73,7 @@ bool lists(const layer::Value& value, const ArcStep& step) {
                            leads(op->appended) || leads(op->added));
 }
 
-/// Variants are said by every layer that names the set or selects one.
+/// Variants are authored by every layer that names the set or selects one.
 bool says_arc(const layer::Value& value, const ArcStep& step) {
   return step.kind == ArcKind::Variant || lists<layer::Reference>(value, step) ||
          lists<layer::Payload>(value, step) || lists<Path>(value, step);

@@ -31,7 +31,7 @@ struct TracedOpinion {
   /// The spec and the way to it; of clips the prim spec that names them; of a fallback nothing.
   OpinionSource source;
   /// As authored, in the layer's own times; of clips the samples of the clip in force. nullptr
-  /// where nothing is said. Lives as long as the stage.
+  /// where there is no opinion. Lives as long as the stage.
   const layer::Value* value = nullptr;
   std::optional<TracedClip> clip;  ///< of ValueClips, but not at the default time
   Token schema;                    ///< of Fallback: what declares it
@@ -49,7 +49,7 @@ struct ValueTrace {
   ValueSource source = ValueSource::None;  ///< Attribute::value_source(time)
   std::vector<TracedOpinion> opinions;     ///< strongest first; fallbacks of schemas last
 
-  /// The opinion that wins; nullptr where nothing is said or arrays are edited over nothing.
+  /// The opinion that wins; nullptr where there is none or arrays are edited over nothing.
   const TracedOpinion* winner() const;
 };
 

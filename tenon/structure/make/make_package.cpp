@@ -37,7 +37,7 @@ struct View {
   std::optional<Layer> over;  ///< its own layer; none: nothing to say
 };
 
-/// Whose content a variant holds. A variant of another name is for nobody knows which engine.
+/// Whose content a variant holds. A variant of another name is for an unknown engine.
 RoleSet roles_in(Role role) {
   switch (role) {
     case Role::Base:
@@ -75,7 +75,7 @@ View* view_of(std::vector<View>& views, std::string_view variant) {
   return found == views.end() ? nullptr : &*found;
 }
 
-/// What is there to prove a package against.
+/// The originals to verify a package against.
 struct Wanted {
   const AssetSource& source;
   const SourceViews& sources;
@@ -87,7 +87,7 @@ struct Wanted {
   Names names;
 };
 
-/// Opens a package under each variant and compares content and physics with what is wanted.
+/// Opens a package under each variant and compares content and physics with the originals.
 class Prover {
  public:
   Prover(const StructuredAsset& asset, const Wanted& wanted, const ContentPhysics& physics)
