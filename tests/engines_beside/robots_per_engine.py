@@ -123,7 +123,7 @@ def page_of(robots, engines):
     for robot in converted:
         lines += f"| {robot.name} | " + " | ".join(robot.outcomes) + " |\n"
     left = len(robots) - len(converted)
-    return lines + f"\n{left} more descriptions do not convert and are left out.\n"
+    return lines + f"\n{left} more descriptions do not convert and are skipped.\n"
 
 
 def names_of(rows, folder):
