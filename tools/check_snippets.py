@@ -2,9 +2,12 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """Every C++ snippet of docs/cpp is a part of a program in examples/cpp, line by line, so that what
-is copied compiles and runs; and every one of those programs is shown somewhere.
+is copied compiles and runs; and every one of those programs is shown somewhere. No console block
+of any page shows a command that fails, unless the line before the block says why it should:
 
-Usage: check_snippets.py [ROOT]. Exit 0: so it is; 1: a line for each snippet that is not.
+    <!-- meant to fail: the two versions differ -->
+
+Usage: check_snippets.py [ROOT]. Exit 0: so it is; 1: a line for each fault.
 """
 
 import glob
@@ -13,7 +16,27 @@ import re
 import sys
 import textwrap
 
+import source_files
+
 SNIPPET = re.compile(r"^```cpp\n(.*?)^```$", re.M | re.S)
+
+
+CONSOLE = re.compile(r"(^<!-- meant to fail: .+ -->\n)?^```console\n(.*?)^```$", re.M | re.S)
+FAILED = re.compile(r"^\[exit code \d+\]$", re.M)
+
+
+def failures(path, text):
+    """Commands of console blocks that fail though nobody meant it, and marks without a failure."""
+    for block in CONSOLE.finditer(text):
+        failed = FAILED.search(text, block.start(2), block.end(2))
+        if failed and not block[1]:
+            command = text.rfind("\n$ ", 0, failed.start()) + 1
+            line = text.count("\n", 0, command) + 1
+            yield (f"{path}:{line}: this command fails; correct it, or say why it should with "
+                   "<!-- meant to fail: REASON --> in the line before the block")
+        if block[1] and not failed:
+            line = text.count("\n", 0, block.start()) + 1
+            yield f"{path}:{line}: nothing in this block fails; remove the mark"
 
 
 def has_part(program, snippet):
@@ -48,6 +71,9 @@ def check(root):
                               "has this snippet; copy it from one")
     faults += [f"examples/cpp/{name}:1: no page of docs/cpp shows a part of it"
                for name in sorted(set(programs) - shown)]
+    for path in source_files.project_files(root):
+        if path.endswith(".md"):
+            faults += failures(path, read(os.path.join(root, path)))
     return count, faults
 
 

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """A page with commands is true: each command of its console blocks, run in order in one folder
-beside a copy of the examples, prints what the page shows and ends as it says.
+beside a copy of the examples, prints what the page shows and ends as it says. A command that fails
+is refused unless the block is marked as meant to (tools/check_snippets.py).
 
     test_tutorial_page.py ROOT TENON PAGE           compares
     test_tutorial_page.py ROOT TENON PAGE --write   writes what the commands print into the page
@@ -15,6 +16,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, os.path.join(sys.argv[1], "tools"))
+import check_snippets
 
 ROOT, TENON = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
 PAGE = ROOT / sys.argv[3]
@@ -47,6 +51,10 @@ def main():
             return f"```console\n{shown}```"
 
         played = BLOCK.sub(replay, text)
+    failures = list(check_snippets.failures(sys.argv[3], played))
+    if failures:
+        print("\n".join(failures))
+        return 1
     if sys.argv[4:] == ["--write"]:
         PAGE.write_text(played, encoding="utf-8")
         return 0
