@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -20,6 +21,14 @@ Error unwritable(const std::string& path, const char* kind, int number) {
       .with_fix(full     ? "make room, or write to another disk"
                 : closed ? "allow writing in its folder, or write elsewhere"
                          : std::string("name a ") + kind + " in a folder that exists");
+}
+
+Result<void> check_parent(const std::string& path, const std::string& shown, const char* kind) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  if (::access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) {
+    return unwritable(shown, kind, errno);
+  }
+  return {};
 }
 
 int write_all(int descriptor, std::string_view contents) {

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "tenon/base/error.h"
+#include "tenon/base/result.h"
 #include "tenon/bytes/read_record.h"
 
 /// What writing files and writing folders have in common. Functions return 0 or an error number.
@@ -17,6 +18,9 @@ namespace tenon::bytes {
 /// ErrorCode::Io with rule "file.unwritable" and what to do about error `number`. `kind` is "file"
 /// or "folder".
 Error unwritable(const std::string& path, const char* kind, int number);
+/// Whether something can be made beside `path`, whose parent has to be a folder that may be written
+/// to. `shown` is the name that the message has. Errors: `unwritable`.
+Result<void> check_parent(const std::string& path, const std::string& shown, const char* kind);
 
 int write_all(int descriptor, std::string_view contents);
 /// Fills `contents` from the file, and shortens it to what there was.

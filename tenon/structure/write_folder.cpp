@@ -210,6 +210,10 @@ Result<std::string> real_folder(const std::string& folder) {
 
 Result<void> check_folder(const std::string& folder, const WriteOptions& options) {
   TENON_TRY(const std::string target, real_folder(folder));
+  std::error_code error;
+  if (!fs::exists(target, error)) {
+    TENON_CHECK(bytes::check_parent(target, folder, "folder"));
+  }
   const Contents none;
   return OldFolder(target, none, options).look();
 }

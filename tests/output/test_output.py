@@ -130,6 +130,18 @@ class EveryVerb(Folder):
     def test_says_that_there_is_no_such_folder(self):
         self.refused("missing")
 
+    def test_looks_at_the_place_of_an_output_before_it_reads(self):
+        """Of an input that is not there and an output that cannot be, the output is named."""
+        for arguments in (["convert", "gone.urdf", "missing/out/"],
+                          ["convert", "gone.urdf", "missing/out.usda"],
+                          ["structure", "gone.usda", "-o", "missing/out"],
+                          ["bake", "gone.usda", "-o", "missing/out.usda"]):
+            with self.subTest(" ".join(arguments)):
+                process = self.go(arguments)
+                self.fails(process, "missing")
+                self.assertIn("missing/out", process.stderr)
+                self.assertNotIn("gone", process.stderr)
+
     def test_says_that_the_folder_is_read_only(self):
         place = self.folder / "closed"
         place.mkdir()
