@@ -12,6 +12,7 @@ made; 1: what is wrong with the pages; 77: the environment could not be made (no
 """
 
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -29,7 +30,7 @@ REQUIREMENTS = os.path.join(ROOT, "docs/requirements.txt")
 SETTINGS = os.path.join(ROOT, "docs/mkdocs.yml")
 SKIPPED = 77
 # What a link of a page may show beside pages: small texts and pictures.
-SHOWN = (".sh", ".yaml", ".toml", ".svg", ".png", ".txt", ".py", ".cpp", ".h", ".usda", ".urdf",
+SHOWN = (".sh", ".yaml", ".toml", ".svg", ".png", ".webp", ".txt", ".py", ".cpp", ".h", ".usda", ".urdf",
          ".xml")
 
 
@@ -87,7 +88,7 @@ def lay_out(pages):
         with open(os.path.join(ROOT, path), encoding="utf-8") as file:
             lay_out_page(path, file.read(), pages)
     for path in source_files.project_files(ROOT):
-        if path.startswith("docs/") and path.endswith((".svg", ".png")):
+        if path.startswith("docs/") and path.endswith((".svg", ".png", ".webp", ".js")):
             os.makedirs(os.path.dirname(os.path.join(SOURCE, path)), exist_ok=True)
             shutil.copyfile(os.path.join(ROOT, path), os.path.join(SOURCE, path))
     put("python/reference.md", python_reference.reference(ROOT))
@@ -113,6 +114,16 @@ def faults_of_navigation(pages):
         yield f"docs/mkdocs.yml: there is no {path}"
 
 
+def rules_that_search_misses(pages):
+    """Pages of rules that the index of the site's search does not have."""
+    with open(os.path.join(SITE, "search/search_index.json"), encoding="utf-8") as file:
+        found = {entry["location"] for entry in json.load(file)["docs"]}
+    for path in sorted(pages):
+        if path.startswith("docs/rules/") and path[:-len("md")] + "html" not in found \
+                and not path.endswith("README.md"):
+            yield f"the search of the site does not find {path}"
+
+
 def main():
     pages = {path for path in source_files.project_files(ROOT) if path.endswith(".md")}
     faults = list(faults_of_navigation(sorted(pages)))
@@ -131,6 +142,10 @@ def main():
     if done.returncode:
         print("\n".join(line for line in (done.stdout + done.stderr).split("\n")
                         if "INFO" not in line))
+        return 1
+    missed = list(rules_that_search_misses(pages))
+    if missed:
+        print("\n".join(missed))
         return 1
     count = sum(name.endswith(".html") for _, _, names in os.walk(SITE) for name in names)
     print(f"{len(pages)} pages, {count} in the site: build/site/index.html")

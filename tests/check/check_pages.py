@@ -20,9 +20,16 @@ INDEX = PAGES / "README.md"
 KINDS = ROOT / "tests/check/kinds.txt"
 HEAD = """# Rules of tenon check
 
-`tenon check FILE` holds assets to these rules; `tenon check --explain RULE` prints a page. Made by
-`tests/check/check_pages.py` from the table of rules and `tests/check/kinds.txt`; a test holds it.
-Numbers are those of [physics-conformance.md](../physics-conformance.md).
+`tenon check FILE` checks an asset by these rules. A page for each says what is wrong, why, and how to
+correct it.
+
+- Search: the search of the site (`make site`) finds every page, and a box above its table filters the
+  rules. In a terminal: `tenon check --list-rules | grep mass`.
+- One page: `tenon explain RULE` prints it.
+- Skip a rule: `tenon check FILE --skip RULE`; only one: `--only RULE`, or the part before the dot.
+- Numbers such as S-83 are explained in [physics-conformance.md](../physics-conformance.md).
+
+Made by `tests/check/check_pages.py --write` from the rules and `tests/check/kinds.txt`.
 """
 LISTS = {
     "eight": "Eight defects that no validator found\n\nPlanted in one small stage: the validation "
