@@ -8,7 +8,11 @@
 # code.
 set -u
 if ! command -v tenon >/dev/null; then
-  python3 -m pip install --quiet "${TENON_PACKAGE:-tenon-usd}" || exit 2
+  if [ -z "${TENON_PACKAGE:-}" ]; then
+    echo "::error::tenon is not on the PATH; name its wheel with the input package" >&2
+    exit 2
+  fi
+  python3 -m pip install --quiet "$TENON_PACKAGE" || exit 2
 fi
 assets=()
 while IFS= read -r line; do

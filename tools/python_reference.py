@@ -82,7 +82,7 @@ def module_text(path, name):
 def reference(root):
     """-> Markdown"""
     folder = os.path.join(root, "python/tenon_usd")
-    text = ("# Python\n\n`pip install tenon-usd`, `import tenon_usd`. "
+    text = ("# Python\n\n`pip install dist/tenon_usd-*.whl`, `import tenon_usd`. "
             "[python/README.md](README.md) shows the first steps.\n\n")
     for name, shown in MODULES:
         path = os.path.join(folder, name + ".py")

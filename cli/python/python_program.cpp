@@ -26,8 +26,8 @@ Error no_python(const std::string& why) {
   return Error(ErrorCode::Missing, "this verb is in tenon's Python package: " + why)
       .with_rule("python.missing")
       .with_fix(
-          "pip install tenon-usd, for the python3 of the PATH or the one that TENON_PYTHON "
-          "names");
+          "install its wheel (make wheel && pip install dist/tenon_usd-*.whl) for the python3 of "
+          "the PATH, or for the one that TENON_PYTHON names");
 }
 
 /// The exit code of a child; that of a shell for one that a signal ended.

@@ -98,9 +98,10 @@ void add_sweep(const Command& parent, const Globals& globals, Chosen& chosen) {
     }
   }
   verb.footer(
-      "The package comes with pip install tenon-usd; without it the exit code is 4. A case depends "
-      "on the plan and its number alone, so that every way of working gives the same bytes, and a "
-      "run that was stopped goes on where it was. docs/sweep.md tells all about plans.\n\n"
+      "Needs the Python package (make wheel && pip install dist/tenon_usd-*.whl); without it the "
+      "exit code is 4. The results of a case depend only on the plan and the number of the case: "
+      "threads, shards and Ray give the same bytes, and an interrupted run continues where it "
+      "stopped. docs/sweep.md has all about plans.\n\n"
       "Examples:\n"
       "  tenon sweep plan.toml -o runs -j 8\n"
       "  tenon sweep hand.usda --vary bodyMass=0.8..1.2 --samples 100 -o runs\n"

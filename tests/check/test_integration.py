@@ -119,6 +119,13 @@ class Action(Folder):
                             TENON_STRICT="true", TENON_SARIF="out.sarif")
         self.assertEqual(told, {"code": "0", "sarif": "out.sarif"})
 
+    def test_without_tenon_and_without_a_wheel_it_says_what_to_give(self):
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/bash").symlink_to(shutil.which("bash"))
+        done = self.run_words(ROOT / "tools/action_check.sh", PATH=str(self.folder / "bin"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("input package", done.stderr)
+
     def test_an_input_is_never_a_command_or_an_option(self):
         told, _ = self.step(TENON_ASSETS="$(touch planted)\n--fix\n; touch planted")
         self.assertEqual(told["code"], "2")

@@ -52,7 +52,7 @@ class Sweep(unittest.TestCase):
         for python in (self.python("-I", "-S"), "/no/such/python3"):
             done = self.run_sweep("plan.toml", python=python)
             self.assertEqual(done.returncode, 4, done)
-            self.assertIn("pip install tenon-usd", done.stderr)
+            self.assertIn("pip install dist/tenon_usd-*.whl", done.stderr)
             done = self.run_sweep("plan.toml", "--json", python=python)
             self.assertEqual(done.returncode, 4)
             self.assertEqual(json.loads(done.stdout)["diagnostics"][0]["rule"], "python.missing")
