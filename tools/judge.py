@@ -119,6 +119,7 @@ def judgements():
                                  "--no-tests=error"], "dev")
     yield Judgement("reference", ["{python}", "-B", "tools/make_reference.py"], "release")
     yield Judgement("site", ["{python}", "-B", "tools/make_site.py"], "release")
+    yield Judgement("workflows", ["{python}", "-B", "tests/workflows/test_workflows.py"])
     yield Judgement("bench", ["ctest", "--test-dir", "build/bench", "-R", "^bench[.]",
                               "--no-tests=error"], "bench")
     yield Judgement("structure_sweep", ["{python}", "-B", "tests/structure/sweep.py", ".",

@@ -30,8 +30,8 @@ REQUIREMENTS = os.path.join(ROOT, "docs/requirements.txt")
 SETTINGS = os.path.join(ROOT, "docs/mkdocs.yml")
 SKIPPED = 77
 # What a link of a page may show beside pages: small texts and pictures.
-SHOWN = (".sh", ".yaml", ".toml", ".svg", ".png", ".webp", ".txt", ".py", ".cpp", ".h", ".usda", ".urdf",
-         ".xml")
+SHOWN = (".sh", ".yaml", ".toml", ".svg", ".png", ".webp", ".txt", ".py", ".cpp", ".h", ".usda",
+         ".urdf", ".xml")
 
 
 def mkdocs_of_cache():

@@ -20,11 +20,11 @@ INDEX = PAGES / "README.md"
 KINDS = ROOT / "tests/check/kinds.txt"
 HEAD = """# Rules of tenon check
 
-`tenon check FILE` checks an asset by these rules. A page for each says what is wrong, why, and how to
-correct it.
+`tenon check FILE` checks an asset by these rules. A page for each says what is wrong, why, and
+how to correct it.
 
-- Search: the search of the site (`make site`) finds every page, and a box above its table filters the
-  rules. In a terminal: `tenon check --list-rules | grep mass`.
+- Search: the search of the site (`make site`) finds every page, and a box above its table filters
+  the rules. In a terminal: `tenon check --list-rules | grep mass`.
 - One page: `tenon explain RULE` prints it.
 - Skip a rule: `tenon check FILE --skip RULE`; only one: `--only RULE`, or the part before the dot.
 - Numbers such as S-83 are explained in [physics-conformance.md](../physics-conformance.md).
