@@ -23,6 +23,7 @@ mkdir -p "$folder"
 picture report.png "$grasp" --physics mujoco --panels --time 2 --size 1100x620
 picture joints.png "$hand" --physics physics --show joints,limits --hide grid --size 800x450
 
+made+=(film.webp) # by tools/make_film.sh
 for file in docs/images/*; do
   [[ " ${made[*]} " == *" ${file##*/} "* ]] || {
     echo "make_pictures: ${file##*/} has no line in tools/make_pictures.sh" >&2

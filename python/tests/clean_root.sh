@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # For the judge: the wheel in a root of its own, a smallest Debian with Python and nothing else
 # (debootstrap; root only): no library of this machine, no network. pip installs dist/*.whl there,
-# with NumPy and matplotlib; then README's lines, the command and the worker run. Needs what
-# python/tests/install.sh made. The root is kept, without what was installed, for the next run.
+# with NumPy and matplotlib; then the lines of docs/start-training.md, the command and the worker
+# run. Needs what python/tests/install.sh made. The root is kept, without what was installed, for
+# the next run.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 [ "$(id -u)" = 0 ] || { echo "skipped: debootstrap needs root"; exit 77; }
@@ -30,7 +31,7 @@ mkdir -p "$user/dist" "$user/packages" "$user/examples"
 cp "$made" "$user/dist/"
 cp "$packages"/*.whl "$user/packages/"
 cp -r examples/inspire_hand examples/cpp/robots "$user/examples/"
-python3 - README.md >"$user/lines.py" <<'END'
+python3 - docs/start-training.md >"$user/lines.py" <<'END'
 import re, sys
 (lines,) = re.findall(r"^```python\n(.*?)^```$", open(sys.argv[1]).read(), re.M | re.S)
 print(lines)
@@ -62,4 +63,4 @@ own/bin/tenon report examples/inspire_hand/inspire_hand.usda -o hand.html >/dev/
 [ -s "$user/hand.html" ]
 count=$(chroot "$root" dpkg-query -W | wc -l)
 size=$(stat -c %s "$made" | awk '{printf "%.1f", $1 / 1e6}')
-echo "README's lines, 3 engines and the worker in a $release of $count packages, wheel $size MB"
+echo "Python lines, 3 engines and the worker in a $release of $count packages, wheel $size MB"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What README.md, docs/python.md and the examples say runs as it stands there."""
+"""What docs/start-training.md, docs/python.md and the examples show runs as it is written."""
 
 import os
 import re
@@ -43,9 +43,9 @@ class Snippets(support.FilesTestCase):
         shutil.copytree(support.HAND.parent, self.folder / "hand")
         shutil.copytree(support.ROOT / "examples/cpp/robots", self.folder / "robots")
 
-    def test_the_lines_of_the_readme(self):
+    def test_the_lines_of_the_start_page(self):
         self.place_examples()
-        (lines,) = SNIPPET.findall((support.ROOT / "README.md").read_text())
+        (lines,) = SNIPPET.findall((support.ROOT / "docs/start-training.md").read_text())
         said = self.run_there("-c", lines)
         self.assertIn("/World/can 0.", said)
         self.assertGreater((self.folder / "heights.png").stat().st_size, 5000)
