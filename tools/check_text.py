@@ -18,7 +18,8 @@ TEXT = WITH_SPDX + (".md", ".txt", ".json", ".clang-format", ".clang-tidy", ".gi
 # Inputs and expected outputs of tests are what they are.
 DATA = ("tests/golden/", "tests/conformance/", "tests/data/", "fuzz/corpus/", "examples/")
 LINE_LENGTH = 100
-ARCHITECTURE_LINES = 200
+# Pages that are read from top to bottom.
+MOST_LINES = {"ARCHITECTURE.md": 200, "README.md": 100, "CHANGELOG.md": 150}
 VAGUE = re.compile(r"(^|[/_])(utils?|helpers?|common|managers?|misc)([_./]|$)")
 ADDRESS = re.compile(r"\b(?!package:|model:)[a-z]+://([A-Za-z0-9.-]+)")  # ROS's name packages
 # Hosts that a file may name. Where packages come from is the user's own configuration.
@@ -55,8 +56,9 @@ def check_whole(path, text):
         yield text.count("\n") + 1, "a file ends with one line feed"
     if path.endswith(".h") and "#pragma once" not in text:
         yield 1, "missing `#pragma once`"
-    if path == "ARCHITECTURE.md" and text.count("\n") > ARCHITECTURE_LINES:
-        yield ARCHITECTURE_LINES + 1, f"longer than {ARCHITECTURE_LINES} lines"
+    most = MOST_LINES.get(path)
+    if most and text.count("\n") > most:
+        yield most + 1, f"longer than {most} lines"
 
 
 def check_file(path, text):

@@ -304,6 +304,18 @@ class Snippets(unittest.TestCase):
         for bad in ("third();\n", "first();\nsecond();\n", "  first();\n"):
             self.assertEqual(len(self.faults(bad)), 2, bad)
 
+    def test_a_recorded_failure_is_refused_unless_it_is_meant(self):
+        mark = "<!-- meant to fail: they differ -->\n"
+        block = "```console\n$ true\n$ {}\n{}```\n"
+        good, bad = block.format("true", ""), block.format("false", "[exit code 1]\n")
+        for text, line in ((good, None), (mark + bad, None), (bad, 3), (mark + good, 1),
+                           (mark + "\n" + bad, 5), (good + bad, 7), (bad + mark + bad, 3)):
+            found = list(check_snippets.failures("docs/a.md", text))
+            self.assertEqual([fault.split(":")[1] for fault in found],
+                             [] if line is None else [str(line)], text)
+        with tree({"docs/a.md": bad}) as root:
+            self.assertEqual(len(check_snippets.check(root)[1]), 1)
+
 
 class Links(unittest.TestCase):
     def faults(self, text, **more):
@@ -346,6 +358,8 @@ class Text(unittest.TestCase):
             ("tenon/base/a.h", self.HEAD + "// https:" + "//example.invalid/simple\n"),
             ("tenon/base/text_utils.h", self.HEAD),
             ("ARCHITECTURE.md", "x\n" * 201),
+            ("README.md", "x\n" * 101),
+            ("CHANGELOG.md", "x\n" * 151),
         ]:
             with self.subTest(path=path, text=text[-40:]):
                 self.assertTrue(self.faults(path, text))
