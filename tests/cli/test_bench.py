@@ -111,7 +111,7 @@ class Bench(unittest.TestCase):
 
     def test_wrong_variations_are_told(self):
         for vary, said in (("beauty=1..2", "bodyMass"), ("gravity=2..1", "range"),
-                           ("gravity", "no variation"), ("bodyMass@/none=1", "nothing at"),
+                           ("gravity", "not a variation"), ("bodyMass@/none=1", "nothing at"),
                            ("joints.upper=2", "nothing of the asset"),
                            ("bodyMass@=1", "no path")):
             run = self.run_tenon(self.file, "--envs", 2, "--duration", 0.1, "--vary", vary)

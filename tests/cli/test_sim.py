@@ -265,13 +265,13 @@ class Commands(Sim):
                 (f"time,{column},{column}\n", ["is there twice"]),
                 (f"time,{column}\n0,1\n0,2\n", [":3:1:", "does not come after", "sort"]),
                 (f"time,{column}\n1,1\n0.5,2\n", [":3:1:", "does not come after"]),
-                (f"time,{column}\n0,nan\n", [":2:3:", "no finite number"]),
-                (f"time,{column}\ninf,1\n", [":2:1:", "no finite number"]),
-                (f"time,{column}\n0,1e999\n", [":2:3:", "no finite number"]),
+                (f"time,{column}\n0,nan\n", [":2:3:", "not a finite number"]),
+                (f"time,{column}\ninf,1\n", [":2:1:", "not a finite number"]),
+                (f"time,{column}\n0,1e999\n", [":2:3:", "not a finite number"]),
                 (f"time,{column}\n0,fast\n", [":2:3:", '"fast"']),
                 (f"time,{column}\n0\n", [":2:", "fewer cells"]),
                 (f"time,{column}\n0,1,2\n", [":2:", "more cells"]),
-                (f"time,{column}\n,1\n", [":2:1:", "no finite number"]),
+                (f"time,{column}\n,1\n", [":2:1:", "not a finite number"]),
                 ("time," + "x" * 100000, [":1:6:", "..."]),
                 (b"time,\xff\xfe\x00\n", [":1:6:"])):
             with self.subTest(text[:60]):
