@@ -22,12 +22,12 @@ tenon convert "$examples/inspire_hand.usda" hand.urdf -q
 
 say() { # say COMMAND: runs it; the words of the film are the command and what it prints
   printf '$ %s\n' "$1"
-  bash -c "$1" 2>&1 | cut -c 1-84
+  bash -c "$1" 2>&1 | cut -c 1-90
 }
 
 title() { # title NAME SECONDS WORDS...: text on dark ground
   ffmpeg -v error -y -f lavfi -i "color=0x0d1117:size=${width}x$height:rate=$fps:duration=$2" -vf \
-    "drawtext=fontfile=$font:textfile=$3:x=30:y=40:fontsize=16:line_spacing=8:fontcolor=0xe6edf3" \
+    "drawtext=fontfile=$font:textfile=$3:x=30:y=20:fontsize=15:line_spacing=4:fontcolor=0xe6edf3" \
     "$1.mkv"
 }
 

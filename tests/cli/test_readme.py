@@ -36,6 +36,7 @@ class Readme(unittest.TestCase):
         self.assertEqual(used - targets, set())
 
     def test_the_commands_on_a_robot_work_as_typed(self):
+        self.assertIn("`export PATH=$PWD/build/release/bin:$PATH`", TEXT)
         (commands,) = [block for block in BLOCKS if any(line.startswith("tenon") for line in block)]
         self.assertEqual([line.split()[1] for line in commands], ["convert", "check", "view"])
         environment = {**os.environ, "PATH": f"{TENON.parent}:{os.environ['PATH']}"}
