@@ -352,7 +352,7 @@ ONLY=robot_corpora`. Of packages with many files an even choice of {most} is tak
   the URDF.
 - **MJCF back**: of MJCF, the model that MuJoCo compiles is the source's in every field; of URDF,
   MuJoCo compiles it. **URDF back**: masses, places and limits are the asset's.
-- **usd-core**, **NVIDIA**: their validators find nothing, but for the shapes of the source's own
+- **usd-core**, **NVIDIA**: their validators find nothing, except the shapes of the source's own
   meshes.
 
 {table}
