@@ -22,6 +22,9 @@ LINE_LENGTH = 100
 MOST_LINES = {"ARCHITECTURE.md": 200, "README.md": 100, "CHANGELOG.md": 150}
 VAGUE = re.compile(r"(^|[/_])(utils?|helpers?|common|managers?|misc)([_./]|$)")
 ADDRESS = re.compile(r"\b(?!package:|model:)[a-z]+://([A-Za-z0-9.-]+)")  # ROS's name packages
+# The package is on no index, so nobody may be told to take it from there; with its wheel installed,
+# the name with an extra, as in tenon-usd[gym], takes the extra alone.
+NOT_PUBLISHED = re.compile(r"pip install '?tenon-usd(?!\[)")
 # Hosts that a file may name. Where packages come from is the user's own configuration.
 HOSTS = {"www.apache.org", "spdx.org", "openusd.org", "aousd.org", "mujoco.org",
          "mujoco.readthedocs.io", "docs.isaacsim.omniverse.nvidia.com", "github.com",
@@ -39,6 +42,8 @@ def check_lines(path, text):
             yield number, "tab"
         if code and len(line) > LINE_LENGTH and not source_files.is_generated(path):
             yield number, f"{len(line)} characters, limit {LINE_LENGTH}"
+        if NOT_PUBLISHED.search(line):
+            yield number, "tenon-usd is on no index: name the wheel, dist/tenon_usd-*.whl"
         for host in ADDRESS.findall(line):
             if host.lower() not in HOSTS:
                 yield number, f"address of {host}; see HOSTS in tools/check_text.py"

@@ -359,6 +359,7 @@ class Text(unittest.TestCase):
             ("tenon/base/text_utils.h", self.HEAD),
             ("ARCHITECTURE.md", "x\n" * 201),
             ("README.md", "x\n" * 101),
+            ("README.md", "pip install" " tenon-usd\n"),
             ("CHANGELOG.md", "x\n" * 151),
         ]:
             with self.subTest(path=path, text=text[-40:]):
