@@ -7,6 +7,7 @@ and the two commands for a fresh machine are the first block.
     test_readme.py ROOT TENON
 """
 
+import json
 import os
 import pathlib
 import re
@@ -34,6 +35,13 @@ class Readme(unittest.TestCase):
         used = set(re.findall(r"\bmake ([a-z-]+)", "\n".join(sum(BLOCKS, []))))
         self.assertGreater(len(used), 3)
         self.assertEqual(used - targets, set())
+
+    def test_the_page_of_commands_has_every_command(self):
+        page = (ROOT / "docs/commands.md").read_text(encoding="utf-8")
+        listed = subprocess.run([TENON, "help", "--json"], capture_output=True, check=True,
+                                text=True).stdout
+        verbs = {verb["name"] for verb in json.loads(listed)["verbs"]}
+        self.assertEqual(verbs - set(re.findall(r"`tenon ([a-z-]+)", page)), set())
 
     def test_the_commands_on_a_robot_work_as_typed(self):
         self.assertIn("`export PATH=$PWD/build/release/bin:$PATH`", TEXT)
