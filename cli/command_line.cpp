@@ -135,7 +135,7 @@ bool is_option_like(const std::string& text) {
   return text.size() > 1 && text.front() == '-' && text != "--";
 }
 
-/// What is left over: an option that does not exist, or a word too many.
+/// The error for the rest: an option that does not exist, or a word too many.
 Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
   const auto option = std::find_if(rest.begin(), rest.end(), is_option_like);
   if (option != rest.end()) {

@@ -29,7 +29,7 @@ class Option {
   Option split_at_commas() const;
   /// May be given many times, with one value each: says in the code what every list does.
   Option repeatable() const;
-  /// The value may be left out: `--name` alone counts as given.
+  /// The value is optional: `--name` alone counts as given.
   Option with_optional_value() const;
   Option one_of(const std::vector<std::string>& choices) const;
   /// A file: "-" for standard input is an error of usage.

@@ -25,14 +25,14 @@ struct NumberRange {
 
 struct OptionInfo {
   std::vector<std::string> names;  ///< with their dashes; a positional has one, without
-  std::string value;               ///< what stands for the value, "FILE"; empty: takes none
+  std::string value;               ///< the placeholder of the value, "FILE"; empty: takes none
   std::string help;
   std::vector<std::string> choices;  ///< when not empty, the only values
   std::optional<NumberRange> range;
   bool positional = false;
   bool required = false;
   bool list = false;            ///< may be given many times
-  bool optional_value = false;  ///< the value may be left out
+  bool optional_value = false;  ///< the value is optional
 
   const std::string& longest_name() const { return names.back(); }
   /// "-o, --output FILE".

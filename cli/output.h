@@ -18,8 +18,8 @@
 #include "tenon/formats/open_layer.h"
 #include "tenon/structure/package.h"
 
-/// Everything that the command hands out goes through here, files and standard output alike; no
-/// other file of cli/ writes (tools/check_outputs.py, a test).
+/// All output of the command goes through here, files and standard output alike; no other file of
+/// cli/ writes (tools/check_outputs.py, a test).
 namespace tenon::cli {
 
 /// What an output is. Which endings its name may have is a table in output.cpp.

@@ -27,7 +27,7 @@ struct ReadableAsset {
 Result<ReadableAsset> open_with_readings(const AssetArguments& asset,
                                          const std::vector<std::string>& assignments,
                                          Diagnostics& diagnostics);
-/// Help of --reading: every name with its values and who reads how.
+/// Help of --reading: every name with its values and the tools that use them.
 std::string readings_help();
 
 }  // namespace tenon::cli

@@ -99,7 +99,7 @@ int each_asset(const Globals& globals, const std::string& verb,
   for (const std::string& asset : assets) {
     if (!globals.json) {
       print("%s==> %s <==\n", &asset == &assets.front() ? "" : "\n", asset.c_str());
-      std::fflush(stdout);  // what is told on standard error stands below its title
+      std::fflush(stdout);  // so that standard error follows its title
     }
     code = std::max(code, run(inner, asset));
   }

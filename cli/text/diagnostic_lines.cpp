@@ -59,7 +59,7 @@ std::string words_of(const Remark& remark) {
   return words + '\n' + remark.behind;
 }
 
-/// How many findings one line stands for; 0: it is left out.
+/// How many findings one line represents; 0: it is omitted.
 std::vector<std::size_t> weights(const std::vector<Remark>& findings) {
   std::map<std::string, std::vector<std::size_t>> same;
   for (std::size_t i = 0; i < findings.size(); ++i) {

@@ -16,10 +16,10 @@ struct Remark {
   std::string behind;
 };
 
-/// One line for each finding, in their order. Where findings repeat, the first ones stand for all:
+/// One line for each finding, in their order. Where findings repeat, the first ones represent all:
 /// of more than kShownAlike that say the same of several places one, of more than kShownOfAKind
 /// that differ in names and numbers alone so many; the last of them ends with "and 19,999 more like
-/// it". With `all` none is left out. Nothing in a line acts on a terminal but the colours.
+/// it". With `all` none is omitted. Nothing in a line acts on a terminal but the colours.
 std::vector<std::string> diagnostic_lines(const std::vector<Remark>& findings, bool color,
                                           bool all);
 

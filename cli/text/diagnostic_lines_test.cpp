@@ -59,7 +59,7 @@ TEST(DiagnosticLines, FewStayAsTheyAre) {
 
 TEST(DiagnosticLines, OfAKindTheFirstStandForAll) {
   const auto list = warnings(
-      500, [](std::size_t i) { return "joint \"j" + std::to_string(i) + "\" is left out"; });
+      500, [](std::size_t i) { return "joint \"j" + std::to_string(i) + "\" is skipped"; });
   ASSERT_EQ(lines(list).size(), kShownOfAKind);
   EXPECT_NE(lines(list).back().find("and 490 more like it"), std::string::npos);
 }

@@ -59,7 +59,7 @@ std::string example(std::string_view line, std::size_t width) {
          wrapped(indent + std::string(line.substr(words)), width, start + 4);
 }
 
-/// Paragraphs are filled anew; lines that begin with a blank or end with ':' stay lines.
+/// Paragraphs are wrapped again; lines that begin with a blank or end with ':' stay lines.
 std::string footer_text(const std::string& footer, std::size_t width) {
   std::string text;
   std::string paragraph;

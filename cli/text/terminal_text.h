@@ -7,7 +7,7 @@
 
 namespace tenon::cli {
 
-/// `text` with everything escaped that would act on a terminal or reorder what is read: control
+/// `text` with everything escaped that would act on a terminal or reorder its text: control
 /// characters (as "\x1b"), bidirectional overrides and marks, line and paragraph separators, the
 /// byte order mark (as "\u202e"), and bytes that are no UTF-8. Line feeds and tabs stay when
 /// `keep_layout`.

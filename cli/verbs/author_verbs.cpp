@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The verbs that make scenes: new, add, remove, rename. Their options and the kinds in their help
-// are those of the table in tenon/asset/authoring/kinds.h; what is written, and where, is decided
-// as for the verb set. Reading, editing and writing are repeated together when a file changed
+// are those of the table in tenon/asset/authoring/kinds.h; the output, and its place, is decided as
+// for the verb set. Reading, editing and writing are repeated together when a file changed
 // meanwhile.
 #include <algorithm>
 #include <filesystem>
@@ -121,7 +121,7 @@ constexpr const char* kAddFooter =
     "What is added lands in the file that owns it, as with set, and is proved there; what engines\n"
     "receive otherwise is told. Units are those of the asset, angles are degrees. A joint's "
     "frames\n"
-    "are worked out from where its bodies are now: they meet at --at, or where body1 has its\n"
+    "are computed from where its bodies are now: they meet at --at, or where body1 has its\n"
     "origin. --set gives any other property that the schemas of what is added declare.\n\n"
     "Examples:\n"
     "  tenon add s.usda /World/box=cube,body,collider --size 0.1 --at 0,0,1\n"

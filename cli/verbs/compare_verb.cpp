@@ -54,7 +54,7 @@ Result<CompareEnginesOptions> options_of(const CompareArguments& arguments) {
   return options;
 }
 
-/// Leaves out what was not asked for.
+/// Removes the metrics that were not requested.
 void keep_metrics(const std::vector<std::string>& names, ComparedEngines& compared) {
   if (names.empty()) {
     return;
@@ -172,7 +172,7 @@ void add_compare(const Command& parent, const Globals& globals, Chosen& chosen) 
       .repeatable()
       .value_name("NAMES");
   add_run_options(verb, *options);
-  verb.add_option("--metrics", options->metrics, "What is told of; without it everything")
+  verb.add_option("--metrics", options->metrics, "Metrics to report; all by default")
       .one_of(metric_names())
       .split_at_commas()
       .repeatable()

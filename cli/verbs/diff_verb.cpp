@@ -87,7 +87,7 @@ int run_diff(const Globals& globals, const DiffArguments& options) {
 }
 
 /// `--physics` without a value is the older way to write `--show physics`; in `diff --physics A B`,
-/// also as git calls it, what stands behind it is the first input.
+/// also as git calls it, the word after it is the first input.
 void untangle_physics(DiffArguments& options, const Option& physics) {
   const std::size_t count = options.inputs.size();
   if (!options.variant.empty() && (count == 1 || count == 6 || count == 8)) {

@@ -19,7 +19,7 @@ struct DumpIndexArguments {
   std::vector<std::string> prims;
   std::string session;
   std::string fallbacks;
-  bool is_record = false;  ///< of the suite, whose errors stand in the text alone
+  bool is_record = false;  ///< of the suite, whose errors are only in the text
 };
 
 Result<std::string> dump(const DumpIndexArguments& options, Report& report) {

@@ -131,7 +131,7 @@ int run_tree(const Globals& globals, const TreeArguments& options) {
 }
 
 /// `--physics` without a value is the older way to write `--show physics`. In `tree --physics A`
-/// what stands behind it is the asset.
+/// the word after it is the asset.
 void untangle_physics(TreeArguments& options, const Option& physics) {
   const bool bare = physics.given() && options.asset.physics.empty();
   options.kinematic = options.show == "physics" || bare;

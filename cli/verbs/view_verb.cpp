@@ -97,7 +97,7 @@ Result<void> publish_page(serve::Server& server) {
   return {};
 }
 
-/// What one sees, thinned out to the number of triangles that is wanted at most.
+/// The visuals, simplified to at most the requested number of triangles.
 Result<std::string> picture_of(const ViewArguments& arguments, const stage::Stage& stage,
                                const scene::PhysicsScene& scene) {
   view::ViewScene view =
