@@ -13,9 +13,6 @@ constexpr int kClamp = 33071;
 }  // namespace
 
 int GlbMaterials::of(std::optional<Index> material, bool two_sided) {
-  if (!material && !two_sided) {
-    return -1;
-  }
   const auto [at, is_new] =
       known_.emplace(std::tuple(material, two_sided), static_cast<int>(materials_.size()));
   if (is_new) {

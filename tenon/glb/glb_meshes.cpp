@@ -69,9 +69,7 @@ int GlbMeshes::of(const view::ViewShape& shape, int material) {
       known_.emplace(std::pair(shape.mesh, material), static_cast<int>(meshes_.size()));
   if (is_new) {
     GltfJson primitive = geometry_of(shape.mesh).primitive;
-    if (material >= 0) {
-      primitive["material"] = material;
-    }
+    primitive["material"] = material;
     GltfJson mesh;
     mesh["primitives"] = GltfJson::array();
     mesh["primitives"].push_back(std::move(primitive));

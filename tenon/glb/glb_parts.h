@@ -61,7 +61,8 @@ class GlbMaterials {
  public:
   GlbMaterials(const view::ViewScene& view, GlbBuffer& buffer) : view_(view), buffer_(buffer) {}
 
-  /// The number of a material with one side or two; -1: none.
+  /// The number of a material with one side or two. Without one it is the default of ViewMaterial,
+  /// written out, because the default material of glTF is a metal.
   int of(std::optional<Index> material, bool two_sided);
   /// Fills "materials", "textures", "images", "samplers"; true where images are moved or scaled.
   bool finish(GltfJson& gltf);

@@ -81,12 +81,12 @@ class GlbWriter {
     }
     nodes_.push_back({{"name", "world"}, {"extras", {{"kind", "world"}}}});
     for (const view::ViewShape& shape : view_.shapes) {
-      add_shape(shape, materials_.of(shape.material, shape.two_sided), {{"kind", "visual"}});
+      add_shape(shape, {{"kind", "visual"}});
     }
     for (std::size_t i = 0; options_.colliders && i < view_.colliders.size(); ++i) {
       const std::vector<Index>& shapes = view_.colliders[i].shapes;
       for (std::size_t piece = 0; piece < shapes.size(); ++piece) {
-        add_shape(view_.collider_shapes[shapes[piece]], -1,
+        add_shape(view_.collider_shapes[shapes[piece]],
                   {{"kind", "collider"}, {"index", i}, {"piece", piece}});
       }
     }
@@ -101,10 +101,11 @@ class GlbWriter {
     nodes_.push_back(std::move(node));
   }
 
-  void add_shape(const view::ViewShape& shape, int material, GltfJson extras) {
+  void add_shape(const view::ViewShape& shape, GltfJson extras) {
     if (view_.meshes[shape.mesh].corners.empty()) {
       return;
     }
+    const int material = materials_.of(shape.material, shape.two_sided);
     GltfJson node = {{"name", shape.path.str()}, {"mesh", meshes_.of(shape, material)}};
     const Grid& grid = meshes_.grid_of(shape.mesh);
     Pose pose = shape.pose;

@@ -120,6 +120,26 @@ TEST(WriteGlb, AShapeThatIsShownTwiceIsInTheFileOnce) {
   EXPECT_EQ(gltf["nodes"].size(), 5u);
 }
 
+TEST(WriteGlb, AShapeWithoutMaterialIsGreyAndNoMetalFromOneSideAndFromTwo) {
+  view::ViewScene view = one_body(1);
+  view.shapes.push_back(view.shapes[0]);
+  view.shapes[1].two_sided = true;
+  view.collider_shapes = {view.shapes[0]};
+  view.colliders.emplace_back().shapes = {0};
+  const json gltf = checked_json(write_glb(view, {.colliders = true}));
+  ASSERT_EQ(gltf["materials"].size(), 2u);
+  for (const json& mesh : gltf["meshes"]) {
+    ASSERT_TRUE(mesh["primitives"][0].contains("material")) << "glTF's default is a metal";
+    const json& material = gltf["materials"][mesh["primitives"][0]["material"].get<std::size_t>()];
+    const json& surface = material["pbrMetallicRoughness"];
+    EXPECT_EQ(surface["metallicFactor"], 0.0);
+    EXPECT_EQ(surface["baseColorFactor"], json({0.18, 0.18, 0.18, 1.0}));
+    EXPECT_EQ(surface["roughnessFactor"], 0.5);
+  }
+  EXPECT_NE(gltf["materials"][0].contains("doubleSided"),
+            gltf["materials"][1].contains("doubleSided"));
+}
+
 TEST(WriteGlb, WhatDoesNotTurnHasNoChannelForIt) {
   const bake::PoseRecording motion = lift();
   const json gltf = checked_json(write_glb(one_body(1), {.motion = &motion}));

@@ -166,7 +166,7 @@ std::optional<Index> Surfaces::read(const stage::Prim& material) {
 }
 
 void Surfaces::read_preview(const stage::Prim& shader, ViewMaterial& look) {
-  look.color = color(shader, "inputs:diffuseColor", time_).value_or(Vec3d{{0.18, 0.18, 0.18}});
+  look.color = color(shader, "inputs:diffuseColor", time_).value_or(ViewMaterial().color);
   look.emission = color(shader, "inputs:emissiveColor", time_).value_or(Vec3d{});
   look.opacity = share(shader, "inputs:opacity", time_).value_or(1);
   look.cutout = share(shader, "inputs:opacityThreshold", time_).value_or(0);

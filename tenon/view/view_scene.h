@@ -38,10 +38,11 @@ struct ViewTexture {
   bool clamped = false;  ///< else it repeats
 };
 
-/// A surface, metallic and rough as UsdPreviewSurface and glTF have it. Colours are linear.
+/// A surface, metallic and rough as UsdPreviewSurface and glTF have it. Colours are linear. The
+/// defaults are those of UsdPreviewSurface: what a shape without material and colour looks like.
 struct ViewMaterial {
-  Path path;  ///< of the USD material; empty: made of a display colour
-  Vec3d color{{0.5, 0.5, 0.5}};
+  Path path;  ///< of the USD material; empty: a display colour, or the default
+  Vec3d color{{0.18, 0.18, 0.18}};
   double opacity = 1;
   double roughness = 0.5;
   double metallic = 0;
@@ -72,7 +73,7 @@ struct ViewShape {
   Pose pose;
   Vec3d scale{{1, 1, 1}};  ///< of the points, before `pose`; negative along one axis: mirrored
   Index mesh = 0;          ///< into ViewScene::meshes, which several shapes may share
-  std::optional<Index> material;  ///< into ViewScene::materials
+  std::optional<Index> material;  ///< into ViewScene::materials; none: a default ViewMaterial
   bool two_sided = false;
 };
 

@@ -22,6 +22,28 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 GRASP = ROOT / "examples/inspire_hand/grasp.usda"
 RUN = ["--physics", "mujoco", "--duration", "0.5", "--fps", "20"]
 
+PLAIN = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{
+    def Sphere "ball" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
+    {
+        double radius = 0.5
+    }
+    def Mesh "sheet"
+    {
+        uniform bool doubleSided = 1
+        int[] faceVertexCounts = [3]
+        int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0, 0, -1), (1, 0, -1), (0, 1, -1)]
+    }
+}
+"""
+
 
 def tenon(*arguments):
     return subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,
@@ -88,6 +110,23 @@ class MotionGlb(unittest.TestCase):
         again = self.folder / "again.glb"
         self.assertEqual(tenon("bake", GRASP, *RUN, "-o", again).returncode, 0)
         self.assertEqual(again.read_bytes(), (self.folder / "m.glb").read_bytes())
+
+    def test_what_has_neither_material_nor_colour_is_grey_and_no_metal(self):
+        scene, glb = self.folder / "plain.usda", self.folder / "plain.glb"
+        scene.write_text(PLAIN, encoding="utf-8")
+        done = tenon("bake", scene, "--duration", "0.1", "-o", glb)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        gltf = Glb(glb.read_bytes()).json
+        looks = {}
+        for node in gltf["nodes"]:
+            if "mesh" in node:
+                part, = gltf["meshes"][node["mesh"]]["primitives"]
+                surface = gltf["materials"][part["material"]]["pbrMetallicRoughness"]
+                looks[node["name"]] = surface
+        self.assertEqual(set(looks), {"/World/ball", "/World/sheet"})
+        for name, surface in looks.items():
+            self.assertEqual(surface, {"baseColorFactor": [0.18, 0.18, 0.18, 1.0],
+                                       "metallicFactor": 0.0, "roughnessFactor": 0.5}, name)
 
     def test_options_of_glb_are_refused_for_layers(self):
         done = tenon("bake", GRASP, *RUN, "--compress", "-o", self.folder / "m.usda")
