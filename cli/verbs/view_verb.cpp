@@ -130,7 +130,9 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments) {
 /// The address, and how to come to it from elsewhere.
 void tell_address(const Report& report, const serve::Server& server) {
   if (!report.json()) {
-    print("%s\n", server.url().c_str());
+    for (const std::string& url : server.urls()) {
+      print("%s\n", url.c_str());
+    }
   }
   const std::string port = std::to_string(server.port());
   if (server.is_local()) {

@@ -219,7 +219,10 @@ void live(serve::Server& server, Session& session, Inbox& inbox, LateAnswers& an
 }  // namespace
 
 Json address_json(const serve::Server& server) {
-  return {{"url", server.url()}, {"port", server.port()}, {"local", server.is_local()}};
+  return {{"url", server.url()},
+          {"urls", server.urls()},
+          {"port", server.port()},
+          {"local", server.is_local()}};
 }
 
 Result<bool> serve_session(serve::Server& server, Session& session, std::optional<double> seconds) {

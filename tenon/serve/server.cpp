@@ -16,6 +16,7 @@
 
 #include "tenon/base/system/random_bytes.h"
 #include "tenon/serve/hub.h"
+#include "tenon/serve/own_addresses.h"
 
 namespace tenon::serve {
 namespace {
@@ -140,11 +141,27 @@ const std::string& Server::token() const { return state_->options.token; }
 std::uint16_t Server::port() const { return state_->options.port; }
 bool Server::is_local() const { return state_->local; }
 
-std::string Server::url() const {
+std::string Server::url() const { return urls().front(); }
+
+std::vector<std::string> Server::urls() const {
   const std::string& bind = state_->options.bind;
-  const bool v6 = bind.find(':') != std::string::npos;
-  return "http://" + (v6 ? "[" + bind + "]" : bind) + ":" + std::to_string(port()) + "/" + token() +
-         "/";
+  beast::error_code ignored;
+  std::vector<std::string> addresses;
+  if (asio::ip::make_address(bind, ignored).is_unspecified()) {
+    addresses = own_addresses(bind.find(':') != std::string::npos);
+    if (addresses.empty()) {
+      addresses.emplace_back("127.0.0.1");  // of every network there is only this
+    }
+  } else {
+    addresses.push_back(bind);
+  }
+  std::vector<std::string> urls;
+  for (const std::string& address : addresses) {
+    const bool v6 = address.find(':') != std::string::npos;
+    urls.push_back("http://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port()) +
+                   "/" + token() + "/");
+  }
+  return urls;
 }
 
 void Server::publish(const std::string& name, Page page) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tenon/base/function.h"
 #include "tenon/base/result.h"
@@ -68,7 +69,9 @@ class Server {
   std::uint16_t port() const;
   /// Only programs of this machine can reach it.
   bool is_local() const;
-  std::string url() const;  ///< "http://127.0.0.1:4711/TOKEN/"
+  std::string url() const;  ///< "http://127.0.0.1:4711/TOKEN/", the first of urls()
+  /// How others reach it. Bound to every network: by each address of this machine.
+  std::vector<std::string> urls() const;
 
   // ---- from any thread, before and while it runs
 

@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.request
 
 import message_tables
 import schema
@@ -301,6 +302,16 @@ class Command(unittest.TestCase):
                                   check=False, timeout=60)
             self.assertEqual(done.returncode, code, done.stderr)
             self.assertTrue(done.stderr)
+
+    def test_every_network_is_told_by_the_addresses_of_this_machine(self):
+        with viewer.Viewer(TENON, STACK, "--bind", "0.0.0.0") as view:
+            urls = view.answer["urls"]
+            self.assertEqual(view.answer["url"], urls[0])
+            self.assertEqual(len(set(urls)), len(urls))
+            for url in urls:
+                self.assertNotIn("0.0.0.0", url)
+                with urllib.request.urlopen(url, timeout=60) as page:
+                    self.assertEqual(page.status, 200, url)
 
     def test_text(self):
         with subprocess.Popen([TENON, "view", str(STACK)], stdout=subprocess.PIPE,
