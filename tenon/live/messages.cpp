@@ -57,6 +57,10 @@ constexpr std::array kState{
     Field{"rate", kNumber, true, "the rate that is reached"},
     Field{"contacts", kInteger, true, "how many there are"},
     Field{"pulled", kInteger, true, "bodies being pulled"},
+    Field{"stopped", kObject, false,
+          "a finding: the step that failed; the last poses before it stay until a reset"},
+    Field{"outdated", kObject, false,
+          "a finding: why changed files cannot be opened; what is shown is older than they are"},
 };
 constexpr std::array kPlots{
     Field{"time", kNumber, true, "[s]"},

@@ -39,6 +39,7 @@ Json new_state(const State& state, Outbox& out) {
 
 Result<Json> play(State& state, ClientNumber, const Asked&, Outbox& out) {
   TENON_CHECK(state.world());
+  TENON_CHECK(state.check_not_stopped());
   state.playing = true;
   state.owed = 0;
   return new_state(state, out);
@@ -103,6 +104,7 @@ Result<Json> set_drive(State& state, ClientNumber, const Asked& asked, Outbox&) 
 Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox& out) {
   TENON_TRY(engines::World * world, state.world());
   TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
+  TENON_CHECK(state.check_not_stopped());
   if (state.playing) {
     return refused("the simulation is running: joints are moved by hand while it is paused",
                    "pause first");

@@ -57,6 +57,10 @@ Json opening_json(const Diagnostics& opening) {
   return rows;
 }
 
+Json finding_or_null(const std::optional<Diagnostic>& finding) {
+  return finding ? answers::diagnostic_json(*finding) : Json(nullptr);
+}
+
 template <class List>
 Result<scene::Index> index_of(const List& list, Path path, const char* what) {
   const auto found =
@@ -108,7 +112,7 @@ Json Session::State::scene_notice(const char* why) const {
           {"engine", asset.engine},
           {"engines", engines_json()},
           {"simulates", asset.world.has_value()},
-          {"problem", asset.problem ? answers::diagnostic_json(*asset.problem) : Json(nullptr)},
+          {"problem", finding_or_null(asset.problem)},
           {"opening", opening_json(asset.opening)},
           {"timeStep", asset.world ? Json(asset.world->time_step()) : Json(nullptr)},
           {"variants", answers::variants_json(*asset.stage, "")},
@@ -125,13 +129,16 @@ Json Session::State::state_notice() const {
           {"speed", speed},
           {"rate", playing ? rate : 0.0},
           {"contacts", asset.world ? asset.world->contact_count() : 0},
-          {"pulled", pulls.count()}};
+          {"pulled", pulls.count()},
+          {"stopped", finding_or_null(stopped)},
+          {"outdated", finding_or_null(outdated)}};
 }
 
 void Session::State::tell_observers(Outbox& out) const {
   const auto wanted = [&](bool Client::* what) {
-    return asset.world && std::any_of(clients.begin(), clients.end(),
-                                      [what](const auto& client) { return client.second.*what; });
+    return asset.world && !stopped &&
+           std::any_of(clients.begin(), clients.end(),
+                       [what](const auto& client) { return client.second.*what; });
   };
   const auto tell_each = [&](bool Client::* what, const Json& message) {
     const std::string text = answers::on_one_line(message);
@@ -158,7 +165,10 @@ void Session::State::tell_observers(Outbox& out) const {
 }
 
 void Session::State::frame_due(Outbox& out) {
-  out.frame = pose_frame(asset);
+  if (!stopped) {
+    frame = pose_frame(asset);
+  }
+  out.frame = frame;
   moved = false;
 }
 
@@ -183,6 +193,7 @@ Result<scene::Index> Session::State::body(Path path) const {
 }
 
 void Session::State::begin_model() {
+  stopped.reset();
   pulls.begin(asset.scene());
   owed = 0;
   rate = 0;
@@ -201,6 +212,7 @@ void Session::State::begin_model() {
 void Session::State::set_asset(LiveAsset opened, const char* why, Outbox& out) {
   asset.world.reset();  // it refers to the scene that goes
   asset = std::move(opened);
+  outdated.reset();
   ++revision;
   begin_watching();
   out.picture = asset.picture;
@@ -245,12 +257,25 @@ void Session::State::begin_again(const char* why, Outbox& out) {
   frame_due(out);
 }
 
+Result<void> Session::State::check_not_stopped() const {
+  if (!stopped) {
+    return {};
+  }
+  return Error(ErrorCode::Invalid, stopped->message)
+      .with_rule("live.stopped")
+      .with_prim(stopped->prim)
+      .with_fix("reset, then change the asset, the engine or the time step");
+}
+
 Result<void> Session::State::step(Outbox& out) {
   TENON_TRY(engines::World * model, world());
+  TENON_CHECK(check_not_stopped());
   TENON_CHECK(pulls.apply(*model, asset.scene()));
   moved = true;
   if (auto done = model->step(); !done) {
     playing = false;
+    moved = false;  // its poses are of no use
+    stopped = done.error().diagnostic();
     tell_problem(done.error().diagnostic(), out);
     tell(0, state_notice(), out);
     return done;
@@ -379,7 +404,9 @@ void Session::look_at_files(Outbox& out) {
     return;
   }
   if (auto opened = state_->reopen(state_->options.asset, "file", out); !opened) {
-    state_->tell_problem(opened.error().diagnostic(), out);
+    state_->outdated = opened.error().diagnostic();
+    state_->tell_problem(*state_->outdated, out);
+    state_->tell(0, state_->state_notice(), out);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,12 @@ class Session::State {
   double rate = 0;             ///< of simulated to wanted time, lately
   std::uint32_t revision = 1;  ///< of the picture
   bool moved = false;          ///< since the last frame
+  /// A step that failed, usually because the simulation became unstable. Until the model begins
+  /// again no step is made and `frame`, the last one before, stays.
+  std::optional<Diagnostic> stopped;
+  std::string frame;  ///< the last one that was told
+  /// Why a changed file could not be opened; what is shown is older than the files.
+  std::optional<Diagnostic> outdated;
   /// Set by a request whose answer is made later, elsewhere.
   Function<Result<Json>()> later;
   /// Drive targets that were set, by joint and drive: they are set again on a new model.
@@ -63,7 +70,9 @@ class Session::State {
   Result<engines::World*> world();
   Result<scene::Index> joint(Path path) const;
   Result<scene::Index> body(Path path) const;
-  /// One step, with what pulls; an unstable one stops the time.
+  /// Errors: Invalid (live.stopped) after a step that failed.
+  Result<void> check_not_stopped() const;
+  /// One step, with what pulls; one that fails stops the time until the model begins again.
   Result<void> step(Outbox& out);
 
   // ---- messages to pages

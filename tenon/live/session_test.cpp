@@ -210,6 +210,32 @@ TEST_F(SessionTest, DrivesReachTheirTargets) {
   EXPECT_EQ(ask({{"do", "setDrive"}, {"joint", "/Arm/none"}}), "live.not-found");
 }
 
+TEST_F(SessionTest, KeepsTheLastPosesAndNamesTheBodyWhenAStepFails) {
+  std::string text = kBase;
+  text.insert(text.find("        float physics:mass = 0.5"),
+              "        vector3f physics:velocity = (0, 0, 1e12)\n");
+  write("base.usda", text);
+  open();
+  const std::vector<float> before = frame_;
+  EXPECT_TRUE(told_["state"]["stopped"].is_null());
+  EXPECT_EQ(ask({{"do", "step"}, {"count", 20}}), "mujoco.unstable");
+  EXPECT_EQ(told_["problem"]["problem"]["rule"], "mujoco.unstable");
+  EXPECT_EQ(told_["state"]["stopped"]["prim"], "/Arm/link");
+  EXPECT_EQ(frame_, before);
+  EXPECT_EQ(ask({{"do", "play"}}), "live.stopped");
+  EXPECT_EQ(ask({{"do", "step"}}), "live.stopped");
+  EXPECT_EQ(ask({{"do", "setJoint"}, {"joint", "/Arm/hinge"}, {"position", {0}}}), "live.stopped");
+  Outbox out;
+  frame_.clear();
+  session_->greet(2, out);  // who comes later sees the same
+  take(out);
+  EXPECT_EQ(frame_, before);
+  EXPECT_EQ(told_["state"]["stopped"]["prim"], "/Arm/link");
+  EXPECT_EQ(ask({{"do", "reset"}}), Json::object());
+  EXPECT_TRUE(told_["state"]["stopped"].is_null());
+  EXPECT_EQ(frame_, before);
+}
+
 TEST_F(SessionTest, MovesJointsByHand) {
   ask({{"do", "setJoint"}, {"joint", "/Arm/hinge"}, {"position", {0.3}}});
   EXPECT_NEAR(angle(), 0.3, 1e-9);
@@ -412,6 +438,7 @@ TEST_F(SessionTest, OpensAgainWhenAFileChanges) {
   }
   take(out);
   EXPECT_TRUE(told_.contains("problem")) << "what does not open is told";
+  EXPECT_TRUE(told_["state"]["outdated"]["file"].get<std::string>().ends_with("root.usda"));
   EXPECT_EQ(session_->asset().scene().bodies[1].mass, 1.5) << "and what was there stays";
   write("base.usda", "no layer");
   write("root.usda", kRoot);
@@ -420,6 +447,7 @@ TEST_F(SessionTest, OpensAgainWhenAFileChanges) {
   }
   take(out);
   EXPECT_FALSE(told_["scene"]["opening"].empty()) << "what is missing is told";
+  EXPECT_TRUE(told_["state"]["outdated"].is_null());
   write("base.usda", kBase);
   out = {};
   for (int i = 0; i < 3; ++i) {
