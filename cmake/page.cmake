@@ -6,7 +6,8 @@
 # page/package-lock.json and fetched once with npm into <TENON_FETCHED>/page-<hash of that file>.
 # Without node and npm there is no page: the build goes on, and the program says how to get it.
 # TENON_PAGE_FOLDER is the folder of the bundled page, or empty; TENON_PAGE_SOURCES the folder with
-# the sources and their packages, for the check of types.
+# the sources and their packages, for the check of types; TENON_PAGE_PACKAGES the folder of the
+# packages alone, or empty.
 include(cmake/wheel.cmake)
 option(TENON_PAGE "Build the page of tenon view and tenon report, where node and npm are" ON)
 set(TENON_PAGE_FOLDER "")
@@ -64,6 +65,7 @@ if(TENON_PAGE AND PROJECT_IS_TOP_LEVEL AND EXISTS ${PROJECT_SOURCE_DIR}/page/pac
 else()
   set(tenon_page_packages "")
 endif()
+set(TENON_PAGE_PACKAGES "${tenon_page_packages}")
 if(tenon_page_packages)
   set(TENON_PAGE_FOLDER ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/tenon/page)
   set(TENON_PAGE_SOURCES ${PROJECT_BINARY_DIR}/page)

@@ -25,6 +25,7 @@ picture joints.png "$hand" --physics physics --show joints,limits --hide grid --
 
 made+=(film.webp) # by tools/make_film.sh
 for file in docs/images/*; do
+  [[ $file == */walk-* ]] && continue # made by tests/browser/tests/walk.mjs --write
   [[ " ${made[*]} " == *" ${file##*/} "* ]] || {
     echo "make_pictures: ${file##*/} has no line in tools/make_pictures.sh" >&2
     exit 1

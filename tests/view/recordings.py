@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """What `tenon record` makes with a real Chromium, decoded by another program (ffmpeg): sizes,
-frames, durations, that something is seen where it should be, that a film moves, that two runs of a
-picture are the same bytes, that the browser has nothing to say, and what comes of one that fails.
+frames, durations, that something is seen where it should be and lit alike wherever it is, that a
+film moves, that two runs of a picture are the same bytes, that the browser has nothing to say, and
+what comes of one that fails.
 
     recordings.py ROOT TENON
 
@@ -46,6 +47,63 @@ def Camera "above"
 {
     double3 xformOp:translate = (0, 0, 9)
     uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+PLACED = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{{
+    double3 xformOp:translate = ({x}, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Sphere "ball" (prepend apiSchemas = ["MaterialBindingAPI"])
+    {{
+        double radius = 0.5
+        {look}
+    }}
+    def Material "Metal"
+    {{
+        token outputs:surface.connect = </World/Metal/Shader.outputs:surface>
+        def Shader "Shader"
+        {{
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0.9, 0.9, 0.9)
+            float inputs:metallic = 1
+            float inputs:roughness = 0.2
+            token outputs:surface
+        }}
+    }}
+}}
+"""
+LOOKS = {"coloured": "color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]", "plain": "",
+         "metal": "rel material:binding = </World/Metal>"}
+FLOORED = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{
+    def Cube "box"
+    {
+        double size = 0.1
+        color3f[] primvars:displayColor = [(1, 0, 0)]
+        double3 xformOp:translate = (0, 0, 0.05)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Cube "floor"
+    {
+        double size = 1
+        color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
+        float3 xformOp:scale = (20, 20, 0.1)
+        double3 xformOp:translate = (0, 0, -0.05)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+    }
 }
 """
 
@@ -142,6 +200,33 @@ class Recordings:
         self.record(GRASP, "nothing.png", "--look-at", "/World/none", *size, code=2)
         self.hold(not (self.folder / "nothing.png").exists(), "a picture of nothing was written")
 
+    def light(self):
+        """A ball is as bright far from the origin as in it, from all sides, and never black."""
+        scene = self.folder / "placed.usda"
+        for look, said in LOOKS.items():
+            for azimuth in (0, 90, 180, 270):
+                means = []
+                for x in (0, 20):
+                    scene.write_text(PLACED.format(x=x, look=said), encoding="utf-8")
+                    path, _ = self.record(scene, "placed.png", "--background", "transparent",
+                                          "--hide", "grid", "--azimuth", azimuth, "--elevation",
+                                          10, "--size", f"{WIDTH}x{HEIGHT}")
+                    pixels = self.pixels(path, 1, "rgba")[0]
+                    means.append(pixels[pixels[..., 3] == 255][..., :3].mean())
+                self.hold(abs(means[0] - means[1]) <= 1, f"{look}, {azimuth}: {means}")
+                self.hold(70 < means[0] < 235, f"{look}, {azimuth}: brightness {means[0]:.0f}")
+        levels = len(numpy.unique(pixels[..., 3]))
+        self.hold(levels > 8, f"edges have {levels} levels: they are not smooth")
+
+    def frames(self):
+        """A ground does not make what stands on it a dot."""
+        scene = self.folder / "floored.usda"
+        scene.write_text(FLOORED, encoding="utf-8")
+        path, _ = self.record(scene, "floored.png", "--size", f"{WIDTH}x{HEIGHT}")
+        red, green, _ = numpy.moveaxis(self.pixels(path, 1)[0], -1, 0)
+        share = (red > 2 * green).mean()
+        self.hold(share > 0.1, f"the box on the floor is {share:.4f} of the picture")
+
     def films(self):
         for name, words in (("a.webm", []), ("b.webm", ["--codec", "vp8"]),
                             ("c.webm", ["--codec", "av1"]), ("d.mp4", []),
@@ -218,6 +303,8 @@ def main():
         recordings = Recordings(pathlib.Path(folder))
         recordings.pictures()
         recordings.looks()
+        recordings.light()
+        recordings.frames()
         recordings.films()
         recordings.failures(browser["version"], place)
         recordings.hold(not os.listdir(place), f"left behind: {os.listdir(place)}")

@@ -64,6 +64,10 @@ export interface StateNotice {
   rate: number;
   contacts: number;
   pulled: number;
+  /** The step that failed; poses stay until a reset. */
+  stopped: Finding | null;
+  /** Why changed files cannot be opened: what is shown is older than they are. */
+  outdated: Finding | null;
 }
 
 export interface PlotsNotice {

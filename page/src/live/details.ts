@@ -4,7 +4,7 @@
 // All properties of the selected prim: who says what and why it counts, and edits, whose effect is
 // told where they were made.
 import { figure, h, table } from "../panel/dom";
-import type { HelloNotice, StateNotice } from "./connection";
+import type { HelloNotice, SceneNotice, StateNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
 interface Property {
@@ -59,6 +59,12 @@ export class Details {
     });
     session.connection.on<StateNotice>("state", (notice) => {
       this.time = notice.time;
+    });
+    session.connection.on<SceneNotice>("scene", ({ why }) => {
+      if (why !== "edit" && why !== "reset" && why !== "engine" && this.effect) {
+        this.effect = null; // it is no longer so
+        session.panel.inspector.update();
+      }
     });
     session.panel.inspector.addSource((path) => this.properties(path));
   }

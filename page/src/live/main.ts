@@ -13,8 +13,10 @@ import { Findings } from "./findings";
 import { Messages } from "./messages";
 import { Move } from "./move";
 import { Plots } from "./plots";
+import { Prims } from "./prims";
 import { Pull } from "./pull";
 import { type Session, attempt } from "./session";
+import { Standing } from "./standing";
 import { Tools } from "./tools";
 
 class Picture {
@@ -70,6 +72,8 @@ function main(): void {
   new Plots(session);
   new Details(session);
   new Pull(session);
+  new Prims(session);
+  new Standing(session);
   panel.layers.offer("contacts");
   panel.openTab("Move");
   panel.viewer.addEventListener("select", () => panel.viewer.selected && panel.openTab("Selection"));

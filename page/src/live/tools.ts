@@ -31,8 +31,8 @@ export class Tools {
       this.speed.append(h("option", { value: factor, selected: factor === "1" }, `${factor} x`));
     }
     this.engine = this.menu("Engine", (engine) => attempt(session, "engine", { engine }));
-    this.undo = button("Undo", "Takes the last edit back", () => void attempt(session, "undo"));
-    this.redo = button("Redo", "Makes it again", () => void attempt(session, "redo"));
+    this.undo = button("Undo", "Takes the last edit back ( Ctrl+Z )", () => void attempt(session, "undo"));
+    this.redo = button("Redo", "Makes it again ( Ctrl+Shift+Z )", () => void attempt(session, "redo"));
     const bar = h(
       "div",
       { class: "live-tools", role: "toolbar", "aria-label": "Time, engine and variants" },
@@ -53,7 +53,7 @@ export class Tools {
     session.connection.on<SceneNotice>("scene", (notice) => this.showScene(notice));
     session.connection.on<StateNotice>("state", (notice) => this.showState(notice));
     session.connection.on("closed", () => this.movers.forEach((button) => (button.disabled = true)));
-    document.addEventListener("keydown", (event) => this.key(event));
+    this.addKeys();
   }
 
   private menu(label: string, choose: (value: string) => Promise<unknown>): HTMLSelectElement {
@@ -68,19 +68,20 @@ export class Tools {
     void attempt(this.session, this.playing ? "pause" : "play");
   }
 
-  private key(event: KeyboardEvent): void {
-    const target = event.target as HTMLElement;
-    if (/^(INPUT|SELECT|TEXTAREA|BUTTON)$/.test(target.tagName) || event.ctrlKey || event.metaKey) {
-      return;
-    }
-    if (event.key === " ") {
-      this.toggle();
-      event.preventDefault();
-    } else if (event.key === ".") {
-      void attempt(this.session, "step");
-    } else if (event.key === "r") {
-      void attempt(this.session, "reset");
-    }
+  private addKeys(): void {
+    const ask = (name: string) => () => void attempt(this.session, name);
+    const moves = () => !this.play.disabled;
+    this.session.panel.keys.add(
+      { key: " ", label: "Play or pause", act: () => this.toggle(), there: moves },
+      { key: ".", label: "One time step", act: ask("step"), there: moves },
+      { key: "r", label: "Back to the start", act: ask("reset"), there: moves },
+      { key: "ctrl+z", label: "Undo the last edit", act: ask("undo"), there: () => this.canEdit(this.undo) },
+      { key: "ctrl+shift+z", label: "Redo it", act: ask("redo"), there: () => this.canEdit(this.redo) },
+    );
+  }
+
+  private canEdit(button: HTMLButtonElement): boolean {
+    return !button.hidden && !button.disabled;
   }
 
   private showScene(scene: SceneNotice): void {

@@ -5,6 +5,7 @@
 import type { OverlayName } from "../scene/overlays";
 import type { Viewer } from "../scene/viewer";
 import { h } from "./dom";
+import type { Shortcut } from "./keys";
 
 interface Layer {
   name: string;
@@ -116,11 +117,14 @@ export class Layers {
     }
   }
 
-  key(key: string): void {
-    const layer = layers.find((one) => one.key === key);
-    if (layer && !this.rows.get(layer.name)!.hidden) {
-      this.set(layer.name, !this.boxes.get(layer.name)!.checked);
-    }
+  /** A key for each switch that this page has. */
+  shortcuts(): Shortcut[] {
+    return layers.map(({ name, label, key }) => ({
+      key,
+      label: `Show or hide: ${label}`,
+      act: () => this.set(name, !this.boxes.get(name)!.checked),
+      there: () => !this.rows.get(name)!.hidden,
+    }));
   }
 
   private applyAll(): void {

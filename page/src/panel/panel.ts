@@ -7,6 +7,7 @@ import type { Viewer } from "../scene/viewer";
 import { h } from "./dom";
 import { Inspector } from "./inspector";
 import { jointTable } from "./joints";
+import { Keys } from "./keys";
 import { Layers } from "./layers";
 import { TimeBar } from "./time_bar";
 import { Tree } from "./tree";
@@ -16,8 +17,11 @@ export class Panel {
   readonly inspector: Inspector;
   readonly layers: Layers;
   readonly timeBar: TimeBar;
+  readonly keys = new Keys();
   /** Left of the buttons in the head: for more of them. */
   readonly tools = h("div", { class: "tools", role: "toolbar", "aria-label": "Tools" });
+  /** The picture, and what is said over it. */
+  readonly picture = h("div", { class: "picture" });
   /** Below the picture: for bars. */
   readonly foot = h("div", { class: "foot" });
 
@@ -28,7 +32,7 @@ export class Panel {
 
   /** `picture` makes the viewer in the element that it is handed. */
   constructor(parent: HTMLElement, makeViewer: (place: HTMLElement) => Viewer) {
-    const place = h("div", { class: "picture" });
+    const place = this.picture;
     const left = h("nav", { class: "left", "aria-label": "Scene" });
     const right = h("aside", { class: "right", "aria-label": "Details" }, this.tabs, this.pages);
     const theme = h("button", { type: "button", onclick: () => this.switchTheme() }, "Dark or light");
@@ -37,10 +41,11 @@ export class Panel {
       { type: "button", title: "F", onclick: () => this.viewer.frame(this.viewer.selected) },
       "Look at it",
     );
+    const help = h("button", { type: "button", title: "?", onclick: () => this.keys.showHelp() }, "Keys");
     this.root = h(
       "div",
       { class: "app" },
-      h("header", {}, this.title, this.tools, frame, theme),
+      h("header", {}, this.title, this.tools, frame, theme, help),
       left,
       h("main", { class: "middle" }, place, this.foot),
       right,
@@ -58,7 +63,7 @@ export class Panel {
     const joints = this.addTab("Joints");
     this.viewer.addEventListener("load", () => joints.replaceChildren(jointTable(this.viewer)));
     this.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-    document.addEventListener("keydown", (event) => this.key(event));
+    this.addKeys();
   }
 
   readonly viewer: Viewer;
@@ -127,27 +132,17 @@ export class Panel {
     event.preventDefault();
   }
 
-  private key(event: KeyboardEvent): void {
-    const target = event.target as HTMLElement;
-    if (/^(INPUT|SELECT|TEXTAREA|BUTTON)$/.test(target.tagName) || event.ctrlKey || event.metaKey) {
-      return;
-    }
-    const motion = this.viewer.motion;
-    const actions: Record<string, () => void> = {
-      f: () => this.viewer.frame(this.viewer.selected),
-      a: () => this.viewer.frame(),
-      " ": () => this.timeBar.toggle(),
-      "/": () => this.tree.focusSearch(),
-      Escape: () => this.viewer.select(""),
-      ",": () => motion && this.timeBar.step(-1 / 30),
-      ".": () => motion && this.timeBar.step(1 / 30),
-    };
-    const action = actions[event.key];
-    if (action) {
-      action();
-      event.preventDefault();
-    } else {
-      this.layers.key(event.key);
-    }
+  private addKeys(): void {
+    const moves = () => this.viewer.motion !== null;
+    this.keys.add(
+      { key: "f", label: "Look at the selection", act: () => this.viewer.frame(this.viewer.selected) },
+      { key: "a", label: "Look at everything", act: () => this.viewer.frame() },
+      { key: "/", label: "Find a prim", act: () => this.tree.focusSearch() },
+      { key: "Escape", label: "Select nothing", act: () => this.viewer.select("") },
+      { key: " ", label: "Play or pause", act: () => this.timeBar.toggle(), there: moves },
+      { key: ",", label: "A frame back", act: () => this.timeBar.step(-1 / 30), there: moves },
+      { key: ".", label: "A frame forward", act: () => this.timeBar.step(1 / 30), there: moves },
+      ...this.layers.shortcuts(),
+    );
   }
 }

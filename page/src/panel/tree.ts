@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The prims that mean something, as a tree by their paths, with search. Rows below a prim are made
-// when it is opened, so that large scenes cost nothing.
+// The prims as a tree by their paths, with search: those with physics or shapes, and all others that
+// a page knows of. Rows below a prim are made when it is opened, so that large scenes cost nothing.
 import type { Viewer } from "../scene/viewer";
 import { h, nameOf } from "./dom";
 
@@ -23,12 +23,19 @@ export class Tree {
   private readonly status = h("p", { role: "status", class: "status" });
   private readonly entries = new Map<string, Entry>();
   private top: Entry[] = [];
+  /** What people have opened and closed, by path: it stays when the prims are read anew. */
+  private readonly wanted = new Map<string, boolean>();
+  /** Types of prims by path, from `addPrims`. */
+  private types = new Map<string, string>();
+  /** Called when somebody is about to search. */
+  onSearch: () => void = () => {};
 
   constructor(private readonly viewer: Viewer) {
     this.search = h("input", {
       type: "search",
       placeholder: "Find a prim ( / )",
       "aria-label": "Find a prim by a part of its path or kind",
+      onfocus: () => this.onSearch(),
       oninput: () => this.update(),
     });
     this.element = h("div", { class: "tree" }, this.search, this.status, this.list);
@@ -36,6 +43,17 @@ export class Tree {
     this.list.addEventListener("keydown", (event) => this.key(event));
     viewer.addEventListener("load", () => this.read());
     viewer.addEventListener("select", () => this.showSelection());
+  }
+
+  /** How many prims it knows. */
+  get size(): number {
+    return this.entries.size;
+  }
+
+  /** All prims of the stage, in its order. */
+  addPrims(prims: readonly { path: string; type: string }[]): void {
+    this.types = new Map(prims.map(({ path, type }) => [path, type]));
+    this.read();
   }
 
   focusSearch(): void {
@@ -63,7 +81,14 @@ export class Tree {
     for (const articulation of info.articulations) {
       this.add(articulation.path, "articulation");
     }
+    for (const [path, type] of this.types) {
+      const { kinds } = this.entryAt(path);
+      if (kinds.size === 0 && type) {
+        kinds.add(type);
+      }
+    }
     this.update();
+    this.showSelection();
   }
 
   private add(path: string, kind: string): void {
@@ -108,10 +133,16 @@ export class Tree {
   /** A row, with those below it where `nested`. */
   private row(entry: Entry, level: number, nested: boolean): HTMLElement {
     const below = nested && entry.children.length > 0;
-    const open = below && level < opened && entry.children.length <= mostOpened;
-    const text = h("span", { class: "row", title: entry.path }, nested ? nameOf(entry.path) : entry.path);
+    const atFirst = level < opened && entry.children.length <= mostOpened;
+    const open = below && (this.wanted.get(entry.path) ?? atFirst);
+    const text = h("span", { class: "row", title: entry.path }, h("bdi", {}, nameOf(entry.path)));
     if (entry.kinds.size > 0) {
       text.append(" ", h("small", {}, [...entry.kinds].join(", ")));
+    }
+    if (!nested) {
+      // Cut at its beginning, where all results are alike.
+      const above = entry.path.slice(0, entry.path.lastIndexOf("/")) || "/";
+      text.append(h("small", { class: "above" }, h("bdi", {}, above)));
     }
     const item = h(
       "li",
@@ -146,6 +177,7 @@ export class Tree {
       this.markSelected();
     }
     item.setAttribute("aria-expanded", String(open));
+    this.wanted.set(item.dataset.path ?? "", open);
     const group = item.querySelector("ul");
     if (group) {
       group.hidden = !open;

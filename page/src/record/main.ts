@@ -190,7 +190,7 @@ class Recording {
     place.style.height = `${height}px`;
     document.body.style.margin = "0";
     document.body.append(place);
-    this.viewer = new Viewer(place, { antialias: false, alpha: true, animated: false });
+    this.viewer = new Viewer(place, { antialias: true, alpha: true, animated: false });
     this.viewer.renderer.setPixelRatio(oversampling);
     this.layers = new Layers(this.viewer);
     const scene = new Blob(this.pieces as BlobPart[]);

@@ -7,7 +7,9 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
-import { type NodeKind, type SceneInfo, noScene } from "./info";
+import { fitted } from "./framing";
+import { type BodyInfo, type NodeKind, type SceneInfo, noScene } from "./info";
+import { addLights, reflectRoom } from "./lights";
 import { Motion } from "./motion";
 import { Overlays, type OverlayName } from "./overlays";
 
@@ -17,6 +19,7 @@ const themes = {
 };
 
 const highlight = new THREE.Color(0x2f7fe0);
+const failure = new THREE.Color(0xe02f2f);
 
 interface Size {
   width: number;
@@ -135,6 +138,8 @@ export class Viewer extends EventTarget {
   /** Middle and size of the scene, in glTF's axes [m]. */
   readonly sphere = new THREE.Sphere(new THREE.Vector3(), 1);
   selected = "";
+  /** The prim that a failed simulation names; "": none. */
+  failed = "";
   /** What the view is fitted to: all that is drawn, but for grounds. */
   fitted: THREE.Object3D[] = [];
 
@@ -165,7 +170,6 @@ export class Viewer extends EventTarget {
       alpha,
     });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
@@ -173,7 +177,7 @@ export class Viewer extends EventTarget {
     container.append(canvas);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.invalidate());
-    this.addLights();
+    addLights(this.scene, this.camera);
     this.scene.add(this.grid);
     this.setTheme("light");
     this.listenToPointer(canvas);
@@ -194,6 +198,9 @@ export class Viewer extends EventTarget {
     this.root = file.scene.children[0] ?? file.scene;
     this.info = { ...noScene, ...(file.scene.userData.tenon as Partial<SceneInfo> | undefined) };
     file.scene.traverse((node) => {
+      if (node instanceof THREE.Mesh) {
+        [node.material as THREE.Material | THREE.Material[]].flat().forEach(reflectRoom);
+      }
       const kind = node.userData.kind as NodeKind | undefined;
       if (kind && kind in this.kinds) {
         this.kinds[kind].push(node);
@@ -239,11 +246,19 @@ export class Viewer extends EventTarget {
     this.dispatchEvent(new CustomEvent("select", { detail: path }));
   }
 
+  /** Marks the prim that a failed simulation names; "" takes the mark off. */
+  markFailed(path: string): void {
+    this.failed = path;
+    this.showSelection();
+  }
+
   private showSelection(): void {
     this.unmark();
-    const node = this.selected ? this.nodeAt(this.selected) : undefined;
-    if (node) {
-      this.mark(node);
+    for (const [path, color] of [[this.failed, failure], [this.selected, highlight]] as const) {
+      const node = path ? this.nodeAt(path) : undefined;
+      if (node) {
+        this.mark(node, color);
+      }
     }
     this.overlays.selectionChanged();
     this.invalidate();
@@ -347,16 +362,6 @@ export class Viewer extends EventTarget {
     this.bodies = [];
   }
 
-  private addLights(): void {
-    const sky = new THREE.HemisphereLight(0xffffff, 0x9aa0a8, 1.9);
-    const key = new THREE.DirectionalLight(0xffffff, 2.2);
-    key.position.set(-0.6, 1, 0.8);
-    const rim = new THREE.DirectionalLight(0xffffff, 0.7);
-    rim.position.set(0.8, 0.3, -1);
-    this.camera.add(key, rim);
-    this.scene.add(sky, this.camera);
-  }
-
   private resize(): void {
     const { width, height } = sizeOf(this.container);
     const now = this.renderer.getSize(new THREE.Vector2());
@@ -414,14 +419,11 @@ export class Viewer extends EventTarget {
     const drawn = seen
       .map((node) => ({ node, box: part.clone().setFromObject(node) }))
       .filter((one) => !one.box.isEmpty());
-    const boxes = drawn.map((one) => one.box);
-    // Grounds are large beside what stands on them: what is twenty times the middle one is none.
-    const sizes = boxes.map((b) => b.getSize(new THREE.Vector3()).length()).sort((a, b) => a - b);
-    const middle = sizes[Math.floor(sizes.length / 2)] ?? 0;
-    const fits = (one: THREE.Box3) =>
-      boxes.length === 1 || one.getSize(new THREE.Vector3()).length() <= 20 * middle;
-    this.fitted = drawn.filter((one) => fits(one.box)).map((one) => one.node);
-    boxes.filter(fits).forEach((one) => box.union(one));
+    const moves = (node: THREE.Object3D) => this.bodyOf(node)?.kinematic === false;
+    const counts = fitted(drawn.map((one) => ({ box: one.box, moves: moves(one.node) })));
+    const subject = drawn.filter((_, i) => counts[i]);
+    this.fitted = subject.map((one) => one.node);
+    subject.forEach((one) => box.union(one.box));
     if (box.isEmpty()) {
       for (const body of this.bodies) {
         box.expandByPoint(body.getWorldPosition(new THREE.Vector3()));
@@ -450,14 +452,15 @@ export class Viewer extends EventTarget {
     this.grid.add(lines);
   }
 
-  private mark(node: THREE.Object3D): void {
+  private mark(node: THREE.Object3D, color: THREE.Color): void {
     node.traverse((part) => {
-      if (part instanceof THREE.Mesh && part.userData.ofPage === undefined) {
+      if (part instanceof THREE.Mesh && part.userData.ofPage === undefined && !this.plain.has(part)) {
         this.plain.set(part, part.material);
         const marked = (material: THREE.Material): THREE.Material => {
           const copy = material.clone();
+          reflectRoom(copy);
           if (copy instanceof THREE.MeshStandardMaterial) {
-            copy.emissive.copy(highlight);
+            copy.emissive.copy(color);
             copy.emissiveIntensity = 0.55;
             copy.emissiveMap = null;
           }
@@ -505,6 +508,16 @@ export class Viewer extends EventTarget {
     ray.setFromCamera(at, this.camera);
     const seen = [...this.kinds.visual, ...this.kinds.collider].filter((node) => node.visible);
     return ray.intersectObjects(seen, true)[0];
+  }
+
+  /** The enabled body that carries a node. */
+  private bodyOf(part: THREE.Object3D): BodyInfo | undefined {
+    let node: THREE.Object3D | null = part;
+    while (node && node.userData.kind !== "body") {
+      node = node.parent;
+    }
+    const body = node ? this.info.bodies[node.userData.index as number] : undefined;
+    return body?.enabled ? body : undefined;
   }
 
   /** The body that a part belongs to, else the part's own path. */

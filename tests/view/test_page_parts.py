@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parts of the page that need no browser: lights, framing, keys, messages (page/tests).
+
+    test_page_parts.py PACKAGES    the folder with node_modules; empty: there is no page
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def main():
+    packages = sys.argv[1] if len(sys.argv) > 1 else ""
+    if not packages or shutil.which("node") is None:
+        print("skipped: node and the packages of the page are not there")
+        return 77
+    return subprocess.run(["node", str(ROOT / "page/tests/run.mjs"), packages],
+                          check=False, timeout=600).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
