@@ -165,7 +165,7 @@ int run_view(const Globals& globals, const ViewArguments& arguments) {
   if (auto published = publish_page(*server); !published) {
     return report.fail(published.error());
   }
-  server->heed_signals();  // who has the address may end it at once
+  server->heed_signals();  // a client with the address may end it at once
   tell_address(report, *server);
   report.finish(kOk, live::address_json(*server));
   flush_prints();
@@ -221,7 +221,7 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "Time step; without it the asset's, else 0.002 s")
       .value_name("SECONDS");
   verb.add_option("--triangles", options->triangles, {0, 1e9, false, true, ""},
-                  "Thin what is drawn out to about so many; 0: draw all")
+                  "Simplify the picture to about so many; 0: draw all")
       .value_name("COUNT");
   verb.add_flag("--watch", options->watch, "Open the asset again when one of its files changes");
   verb.add_flag("--read-only", options->read_only, "Refuse edits");
