@@ -9,7 +9,9 @@ text     `tenon test-runner layer` against the published JSON, after the normali
          NORMALISED names for a case, each of which must be needed; and against OpenUSD's layer.
 binary   against the facts of binary_facts.py, and against OpenUSD's layer.
 package  the root layer of every package of all suites, against OpenUSD's layer.
-Exit 77: the material or OpenUSD's modules are absent.
+own      layers of this project as text, as binary layers and packages that OpenUSD makes of them,
+         against OpenUSD's layer; these alone where the published material is absent.
+Exit 77: OpenUSD's modules are absent.
 """
 
 import json
@@ -25,9 +27,12 @@ from binary_facts import FACTS
 os.environ["PXR_USDC_EMIT_DEPRECATION_WARNINGS"] = "0"  # read when OpenUSD is loaded
 try:
     import openusd_json
-    from pxr import Sdf
+    from pxr import Sdf, UsdUtils
 except ImportError:
     suite.skip("no OpenUSD modules in this Python")
+
+OWN_STEP = 9  # one in so many of the layers of this project
+OWN_PACKAGE_STEP = 45
 
 # Where the published JSON differs from what OpenUSD reads from the same text, and why.
 REASONS = {
@@ -145,6 +150,31 @@ def files_below(folder, suffix):
                   for name in names if name.endswith(suffix))
 
 
+def compare_own(tenon, folder):
+    """Layers of this project; -> exit code."""
+    own = suite.Results("own_layers")
+    for path in suite.own_layers(OWN_STEP):
+        own.add("layers of this project, text: as OpenUSD reads them", suite.own_name(path),
+                compare_with_openusd(tenon, path))
+        binary = os.path.join(folder, "layer.usdc")
+        try:
+            Sdf.Layer.OpenAsAnonymous(path).Export(binary)
+        except Exception:  # pylint: disable=broad-except
+            continue  # no layer: there is no binary form
+        own.add("layers of this project, binary: as OpenUSD reads them",
+                suite.own_name(path) + " binary", compare_with_openusd(tenon, binary))
+    for number, path in enumerate(suite.own_layers(OWN_PACKAGE_STEP)):
+        package = os.path.join(folder, f"{number}.usdz")
+        try:
+            made = UsdUtils.CreateNewUsdzPackage(path, package)
+        except Exception:  # pylint: disable=broad-except
+            made = False
+        if made:
+            own.add("packages of layers of this project: as OpenUSD reads them",
+                    suite.own_name(path) + " package", compare_with_openusd(tenon, package))
+    return own.finish(is_whole=False)
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -156,6 +186,7 @@ def main():
                      compare_with_record(tenon, name, path, folder))
             text.add("AOUSD text layers: as OpenUSD reads them", name,
                      compare_with_openusd(tenon, path))
+        code = compare_own(tenon, folder)
     for name, path in suite.cases("aousd_binary"):
         binary.add("AOUSD binary layers: facts", name, compare_with_facts(tenon, name, path))
         binary.add("AOUSD binary layers: as OpenUSD reads them", name,
@@ -164,9 +195,11 @@ def main():
     for path in files_below(suite.CONFORMANCE, ".usdz"):
         packages.add("packages: as OpenUSD reads them", os.path.relpath(path, suite.CONFORMANCE),
                      compare_with_openusd(tenon, path))
-    for name, names in sorted(NORMALISED.items()):
+    for name, names in sorted(NORMALISED.items()) if suite.HAS_PUBLISHED else ():
         print(f"{name}: " + "; ".join(REASONS[reason] for reason in names))
-    sys.exit(text.finish() | binary.finish() | packages.finish())
+    for results in (text, binary, packages):
+        code |= results.finish(is_whole=suite.HAS_PUBLISHED)
+    sys.exit(code)
 
 
 if __name__ == "__main__":

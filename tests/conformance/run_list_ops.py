@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Chains of list edits folded into one: the published chains of the AOUSD core specification, and
-random ones against OpenUSD.
+"""Chains of list edits folded into one: the published chains of the AOUSD core specification,
+where they are, chains of this project, and random ones against OpenUSD.
 
 usage: run_list_ops.py TENON [--random COUNT]
 """
@@ -34,6 +34,26 @@ def run_published(tenon, results):
             for number, case in enumerate(json.load(file)):
                 results.add("AOUSD list edits: published chains", f"{name} {number}",
                             compare(tenon, case["chain"], case["combined_reduced"]))
+
+
+# Strongest first, and what is left of them as one edit.
+OWN_CHAINS = (
+    ([{"explicit_items": [1, 2]}], {"explicit_items": [1, 2]}),
+    ([{"prepended_items": [3]}, {"explicit_items": [1, 2]}], {"explicit_items": [3, 1, 2]}),
+    ([{"appended_items": [1]}, {"explicit_items": [1, 2]}], {"explicit_items": [2, 1]}),
+    ([{"deleted_items": [2]}, {"explicit_items": [1, 2]}], {"explicit_items": [1]}),
+    ([{"explicit_items": [7]}, {"prepended_items": [1]}], {"explicit_items": [7]}),
+    ([{"prepended_items": [1]}, {"prepended_items": [2]}], {"prepended_items": [1, 2]}),
+    ([{"appended_items": [1]}, {"appended_items": [2]}], {"appended_items": [2, 1]}),
+    ([{"prepended_items": [1]}, {"appended_items": [1, 2]}],
+     {"prepended_items": [1], "appended_items": [2]}),
+)
+
+
+def run_own(tenon, results):
+    for number, (chain, expected) in enumerate(OWN_CHAINS):
+        results.add("list edits: chains of this project", f"own {number}",
+                    compare(tenon, chain, expected))
 
 
 def random_edit(source):
@@ -81,7 +101,9 @@ def main():
         run_random(sys.argv[1], results, int(sys.argv[3]) if len(sys.argv) == 4 else 200)
     except ImportError:
         print("no OpenUSD modules in this Python: random chains left out")
-    sys.exit(results.finish())
+    own = suite.Results("own_list_ops")
+    run_own(sys.argv[1], own)
+    sys.exit(results.finish(is_whole=suite.HAS_PUBLISHED) | own.finish(is_whole=False))
 
 
 if __name__ == "__main__":

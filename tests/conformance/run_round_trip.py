@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every layer of the published material, written as text and as a binary layer and read again.
+"""Layers of this project, and of the published material where it is, written as text and as a
+binary layer and read again.
 
 usage: run_round_trip.py ROUND_TRIP TENON [--all]
 
 ROUND_TRIP is the program tests/tools/round_trip.cpp.
 ourselves  text -> binary -> text and back: same fields, same text
 OpenUSD    reads what was written, text and binary, as it reads the original: same text
-stages     of the composition suite, all text layers replaced by binary ones: same dump, by both
+stages     of the composition suite and random ones, all text layers replaced by binary ones: same
+           dump, by both
 Without --all one in SAMPLE of the layers, and of those the smaller ones: what takes a minute with
-sanitizers. Exit 77: the material or OpenUSD's modules are absent.
+sanitizers. Exit 77: OpenUSD's modules are absent.
 """
 
 import os
@@ -23,6 +25,7 @@ import suite
 
 sys.path.insert(0, os.path.join(suite.REPO, "tests", "differential"))
 import dump_stage  # noqa: E402  pylint: disable=wrong-import-position
+import random_scenes  # noqa: E402  pylint: disable=wrong-import-position
 
 os.environ["PXR_USDC_EMIT_DEPRECATION_WARNINGS"] = "0"  # read when OpenUSD is loaded
 try:
@@ -34,6 +37,8 @@ SAMPLE = 12  # of layers
 SAMPLE_OF_STAGES = 5
 LARGEST = {False: 300_000, True: 50_000_000}  # bytes, in a sample and with --all
 BATCH = 40
+OWN_STEP = 5  # one in so many of the layers of this project
+OWN_SEEDS = range(600_000, 600_008)  # of random scenes
 
 
 def layer_files(everything):
@@ -70,7 +75,8 @@ def check(program, batch, folder, results):
     if run.returncode != 0 or len(verdicts) != len(batch):
         sys.exit(f"{program} broke after {len(verdicts)} of {batch}:\n{run.stderr[-3000:]}")
     for number, (path, verdict) in enumerate(zip(batch, verdicts)):
-        name = os.path.relpath(path, suite.CONFORMANCE)
+        name = (suite.own_name(path) if path.startswith(suite.REPO + os.sep)
+                else os.path.relpath(path, suite.CONFORMANCE))
         if verdict == "rejected":
             continue
         results.add("round trips: text, binary and back", name,
@@ -97,38 +103,52 @@ def rewrite(program, folder, made):
 
 
 def check_stages(program, tenon, everything, results):
-    oracle = dump_stage.ORACLE
-    if not os.path.exists(oracle):
-        return
-    module = dump_stage.oracle_module()
     found = suite.cases("aousd_composition")
     for name, path in found if everything else found[::SAMPLE_OF_STAGES]:
         original = os.path.join(path, "usda", "root.usd")
-        if not os.path.exists(original):
-            continue
+        if os.path.exists(original):
+            check_stage(program, tenon, name, original, results)
+
+
+def check_own_stages(program, tenon, results):
+    """Random scenes, whose layers have names that fit both forms."""
+    for seed in OWN_SEEDS:
         with tempfile.TemporaryDirectory() as folder:
-            copy, made = os.path.join(folder, "usda"), os.path.join(folder, "made")
-            shutil.copytree(os.path.dirname(original), copy)
-            for inside, _, _ in os.walk(copy):
-                os.chmod(inside, 0o755)
-            os.mkdir(made)
-            rewrite(program, copy, made)
-            cases = [dump_stage.Case(name, original),
-                     dump_stage.Case(name + " rewritten", os.path.join(copy, "root.usd"))]
-            for side, dump in (
-                    ("tenon", lambda case: dump_stage.actual_dump(tenon, case)),
-                    ("OpenUSD", lambda case: dump_stage.expected_dump(module, case, made))):
-                same = dump(cases[0]) == dump(cases[1])
-                results.add(f"round trips: stages of binary layers dump alike, by {side}", name,
-                            None if same else f"{side} dumps the rewritten stage otherwise")
+            inside = os.path.join(folder, "scene")
+            os.mkdir(inside)
+            scene = random_scenes.make_scene(seed)
+            for name, text in random_scenes.texts(scene).items():
+                with open(os.path.join(inside, name.replace(".usda", ".usd")), "w",
+                          encoding="utf-8") as file:
+                    file.write(text.replace(".usda", ".usd"))
+            root = os.path.join(inside, "l0.usd")
+            check_stage(program, tenon, f"own scene {seed}", root, results)
+
+
+def check_stage(program, tenon, name, original, results):
+    module = dump_stage.oracle_module()
+    root = os.path.basename(original)
+    with tempfile.TemporaryDirectory() as folder:
+        copy, made = os.path.join(folder, "usda"), os.path.join(folder, "made")
+        shutil.copytree(os.path.dirname(original), copy)
+        for inside, _, _ in os.walk(copy):
+            os.chmod(inside, 0o755)
+        os.mkdir(made)
+        rewrite(program, copy, made)
+        cases = [dump_stage.Case(name, original),
+                 dump_stage.Case(name + " rewritten", os.path.join(copy, root))]
+        for side, dump in (
+                ("tenon", lambda case: dump_stage.actual_dump(tenon, case)),
+                ("OpenUSD", lambda case: dump_stage.expected_dump(module, case, made))):
+            same = dump(cases[0]) == dump(cases[1])
+            results.add(f"round trips: stages of binary layers dump alike, by {side}", name,
+                        None if same else f"{side} dumps the rewritten stage otherwise")
 
 
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--all"]
     if len(arguments) != 2:
         sys.exit(__doc__)
-    if not os.path.isdir(suite.CONFORMANCE):
-        suite.skip(f"no {suite.CONFORMANCE}")
     everything = "--all" in sys.argv
     files = layer_files(everything)
     results = suite.Results("round_trip_all" if everything else "round_trip")
@@ -136,7 +156,13 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             check(arguments[0], files[start:start + BATCH], folder, results)
     check_stages(*arguments, everything, results)
-    sys.exit(results.finish())
+    own = suite.Results("own_round_trip")
+    files = suite.own_layers(1 if everything else OWN_STEP)
+    for start in range(0, len(files), BATCH):
+        with tempfile.TemporaryDirectory() as folder:
+            check(arguments[0], files[start:start + BATCH], folder, own)
+    check_own_stages(*arguments, own)
+    sys.exit(results.finish(is_whole=suite.HAS_PUBLISHED) | own.finish(is_whole=False))
 
 
 if __name__ == "__main__":

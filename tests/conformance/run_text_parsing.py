@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The text parsing suite of OpenUSD: files named `bad` are rejected and the others accepted, and
-the text written from each accepted one equals OpenUSD's, byte by byte; the JSON of its layer, too.
+"""The text parsing suite of OpenUSD, where it is, and the texts of text_cases.py: files named `bad`
+are rejected and the others accepted, and the text written from each accepted one equals OpenUSD's,
+byte by byte; the JSON of its layer, too.
 
 usage: run_text_parsing.py TENON
 """
 
 import json
+import os
 import subprocess
 import sys
+import tempfile
 
 import suite
+import text_cases
 
 try:
     import openusd_json
@@ -41,8 +45,8 @@ def first_difference(expected, actual):
     return "one text ends early"
 
 
-def check(tenon, name, path, results):
-    text, is_bad = run(tenon, "cat", path), "_bad_" in name
+def check(tenon, name, path, results, is_bad):
+    text = run(tenon, "cat", path)
     verdict = None if (text is None) == is_bad else "rejected" if text is None else "accepted"
     results.add("text parsing: rejected as bad" if is_bad else "text parsing: accepted as good",
                 name, verdict)
@@ -65,8 +69,15 @@ def main():
         sys.exit(__doc__)
     results = suite.Results("text_parsing")
     for name, path in suite.cases("openusd_sdf_parsing"):
-        check(sys.argv[1], name, path, results)
-    sys.exit(results.finish())
+        check(sys.argv[1], name, path, results, "_bad_" in name)
+    own = suite.Results("own_text_parsing")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text, is_bad in text_cases.cases():
+            path = os.path.join(folder, name + ".usda")
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                file.write(text)
+            check(sys.argv[1], name, path, own, is_bad)
+    sys.exit(results.finish(is_whole=suite.HAS_PUBLISHED) | own.finish(is_whole=False))
 
 
 if __name__ == "__main__":

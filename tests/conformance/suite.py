@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of published suites share: where the material lies, lists of known misses, and a
-record of what was measured.
+record of what was measured. The published material is a folder of its own, which may be absent;
+then the layers that this project has written for its own tests are read alone.
 
 A record is one small JSON file per suite in the folder TENON_MEASURED_DIR (set by ctest), from
-which make_table.py makes the table of CONFORMANCE.md. A suite that skips leaves none.
+which make_table.py makes the table of CONFORMANCE.md. A suite that skips, or runs on this project's
+layers alone, leaves none.
 A list of misses has one line for each case that is known to differ, `NAME | reason`; a case that
 differs and is not listed fails the test, and so does a listed one that does not differ any more.
 CONFORMANCE.md repeats the lists.
@@ -21,6 +23,9 @@ SHARED = os.environ.get("TENON_SHARED_DIR", os.path.join(os.path.dirname(REPO), 
 CONFORMANCE = os.path.join(SHARED, "conformance")
 MISSES = os.path.join(HERE, "misses")
 SKIPPED = 77
+HAS_PUBLISHED = os.path.isfile(os.path.join(CONFORMANCE, "cases.txt"))
+OWN_FOLDERS = ("examples", "fuzz/seeds", "tests")
+OWN_LARGEST = 300_000  # bytes
 
 
 def skip(why):
@@ -29,13 +34,37 @@ def skip(why):
 
 
 def cases(suite):
-    """[(name, path)] that cases.txt lists for `suite`."""
-    listing = os.path.join(CONFORMANCE, "cases.txt")
-    if not os.path.exists(listing):
-        skip(f"no {CONFORMANCE}")
-    with open(listing, encoding="utf-8") as file:
+    """[(name, path)] that cases.txt lists for `suite`; none where it is absent."""
+    if not HAS_PUBLISHED:
+        return []
+    with open(os.path.join(CONFORMANCE, "cases.txt"), encoding="utf-8") as file:
         rows = [line.rstrip("\n").split("\t") for line in file if not line.startswith("#")]
     return [(row[1], os.path.join(CONFORMANCE, row[2])) for row in rows if row[0] == suite]
+
+
+def own_layers(step=1, suffixes=(".usda",)):
+    """Layers that this project has written for its tests and examples, sorted; of them one in
+    `step`."""
+    found = []
+    for folder in OWN_FOLDERS:
+        for inside, _, names in os.walk(os.path.join(REPO, folder)):
+            found += [os.path.join(inside, name) for name in names if name.endswith(suffixes)]
+    return sorted(path for path in found
+                  if not os.path.islink(path) and os.path.getsize(path) <= OWN_LARGEST)[::step]
+
+
+def own_scenes():
+    """Scenes of physics that this project has written, but for those of time samples and point
+    instancers, which OpenUSD's physics parser does not read. No row of CONFORMANCE.md counts them."""
+    sampled = ("gravity_and_limits.usda", "switches.usda", "write_back.usda")
+    folders = [os.path.join(REPO, "examples", "scenes"), os.path.join(REPO, "tests/physics/scenes")]
+    return [os.path.join(folder, name) for folder in folders for name in sorted(os.listdir(folder))
+            if name.endswith(".usda") and name not in sampled]
+
+
+def own_name(path):
+    """Of a layer of this project, for a message: relative to the repository."""
+    return "own " + os.path.relpath(path, REPO)
 
 
 def read_misses(path):

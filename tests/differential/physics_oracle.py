@@ -2,10 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """What OpenUSD's own physics parser says about a stage, as plain data: the descriptors of all
 objects, the table of collision groups, the mass properties of every body. Volumes and moments of
-inertia, which OpenUSD asks of its caller, are closed forms."""
+inertia, which OpenUSD asks of its caller, are closed forms.
 
+usage: physics_oracle.py FILE    prints it as JSON, in which numbers that are not finite are NaN and
+                                 Infinity
+"""
+
+import json
 import math
 import os
+import sys
 
 os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")
 from pxr import Gf, Usd, UsdGeom, UsdPhysics  # pylint: disable=wrong-import-position
@@ -116,3 +122,7 @@ def read(stage):
 
 def read_file(path):
     return read(Usd.Stage.Open(path))
+
+
+if __name__ == "__main__":
+    json.dump(read_file(sys.argv[1]), sys.stdout)

@@ -5,8 +5,9 @@ the canonical text. Text and binary layers are read. Needs Python with OpenUSD's
 
 usage: text_layers.py RETEXT [FOLDER...]
 
-RETEXT is built from tests/tools/retext.cpp. Without FOLDER the conformance files, scenes and assets
-below the folder named by TENON_SHARED_DIR (default: ../shared) are read.
+RETEXT is built from tests/tools/retext.cpp. Without FOLDER the layers of this project are read, and
+the conformance files, scenes and assets below the folder named by TENON_SHARED_DIR (default:
+../shared), where that is.
 Known misses are named in text_misses.txt: one more or one less makes this fail.
 """
 
@@ -89,20 +90,31 @@ def misses(program, files):
     return found
 
 
+def compare_own(program):
+    own = suite.Results("own_text", os.path.join(HERE, "text_misses.txt"))
+    files = suite.own_layers()
+    found = misses(program, files)
+    for path in files:
+        own.add("layers of this project: bytes as OpenUSD's, or rejected by both",
+                suite.own_name(path), found.get(path))
+    return own.finish(is_whole=False)
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     folders = sys.argv[2:] or [os.path.join(SHARED, n) for n in ("conformance", "scenes", "assets")]
     folders = [folder for folder in folders if os.path.isdir(folder)]
-    if not folders:
-        suite.skip(f"no {SHARED}")
     results = suite.Results("text", os.path.join(HERE, "text_misses.txt"))
     files = layer_files(folders)
     found = misses(sys.argv[1], files)
     for path in files:
         results.add("text of layers: bytes as OpenUSD's, or rejected by both",
                     os.path.relpath(path, SHARED), found.get(path))
-    sys.exit(results.finish(is_whole=not sys.argv[2:]))
+    code = results.finish(is_whole=not sys.argv[2:] and suite.HAS_PUBLISHED)
+    if not sys.argv[2:]:
+        code |= compare_own(sys.argv[1])
+    sys.exit(code)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""`tenon structure` on the USD files of ../shared that name a default prim: it proves itself, makes
-the same bytes of its own result, moves nothing a second time, and breaks no rule on structure that
-the source does not break.
+"""`tenon structure` on layers of this project, and on the USD files of ../shared where that is,
+that name a default prim: it proves itself, makes the same bytes of its own result, moves nothing a
+second time, and breaks no rule on structure that the source does not break.
 
     sweep.py ROOT TENON [--all]
 
@@ -14,7 +14,6 @@ one are right, and judged as such:
 - A source that composes beyond a limit of docs/limits.md is refused by that limit's name, with
   exit 2 and no result, where `info` says the same of the source.
 What misses is named in sweep_misses.txt, which may only shrink; without such a file nothing does.
-Exit 77: ../shared is absent.
 """
 
 import concurrent.futures
@@ -152,23 +151,28 @@ def assets(everything):
     """All files, or some small ones of those that name a default prim where it can be seen; hands
     have tests of their own."""
     found = sorted(path for path in SHARED.rglob("*") if path.suffix in ENDINGS and path.is_file())
+    own = map(pathlib.Path, suite.own_layers())
+    found += [path for path in own if "payloads" not in path.parts]
     if everything:
         return found
     named = [path for path in found
              if "assets/inspire_hand" not in str(path) and
              path.stat().st_size < SAMPLE_BYTES and b"defaultPrim" in path.read_bytes()]
-    return named[::max(1, len(named) // SAMPLE)]
+    own = [path for path in named if ROOT in path.parents]
+    named = [path for path in named if ROOT not in path.parents]
+    return named[::max(1, len(named) // SAMPLE)] + own[::max(1, len(own) // SAMPLE)]
+
+
+def name_of(path):
+    return str(path.relative_to(ROOT if ROOT in path.parents else SHARED))
 
 
 def main():
-    if not (SHARED / "conformance").exists():
-        print(f"{SHARED} is absent")
-        return suite.SKIPPED
     everything = "--all" in sys.argv
     known = suite.read_misses(MISSES)
     chosen = assets(everything)
     with concurrent.futures.ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
-        verdicts = dict(zip([str(path.relative_to(SHARED)) for path in chosen],
+        verdicts = dict(zip([name_of(path) for path in chosen],
                             pool.map(verdict, chosen)))
     misses = {name: what for name, (outcome, what) in verdicts.items() if outcome is None}
     for name, what in misses.items():

@@ -12,7 +12,8 @@ the byte; findings are compared per prim by class. A case whose record is only a
 root layer, or that REJECTED names, passes when the layer is rejected. Of the one record of a node
 graph the nodes are compared: arc, site, parent, whether they count.
 Known misses are named in composition_misses.txt beside this folder: one more or one less makes
-this fail. Exit 77: the material is absent.
+this fail. The scenes of own_scenes.py are compared with what OpenUSD composes of them. Exit 77: the
+published material is absent and OpenUSD is, too.
 """
 
 import collections
@@ -21,9 +22,13 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
+import types
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(HERE)), "differential"))
+import own_scenes  # noqa: E402  pylint: disable=wrong-import-position
 import suite  # noqa: E402  pylint: disable=wrong-import-position
 
 CONFORMANCE = suite.CONFORMANCE
@@ -138,6 +143,8 @@ def museum_case(name, folder):
 
 def find_cases(wanted):
     cases = []
+    if not suite.HAS_PUBLISHED:
+        return cases
     with open(os.path.join(CONFORMANCE, "cases.txt"), encoding="utf-8") as file:
         for line in file:
             fields = line.rstrip("\n").split("\t")
@@ -262,17 +269,41 @@ def label_of(case):
     return f"AOUSD composition through {case.name.rsplit(' ', 1)[1]} layers"
 
 
+def compare_own(dump):
+    """Scenes of this project; -> exit code."""
+    try:
+        import pxr  # noqa: F401  pylint: disable=unused-import,import-outside-toplevel
+    except ImportError:
+        if not suite.HAS_PUBLISHED:
+            suite.skip("no OpenUSD modules in this Python")
+        return 0
+    import compose_random  # pylint: disable=import-outside-toplevel
+
+    results = suite.Results("own_composition")
+    with tempfile.TemporaryDirectory() as folder:
+        judge = compose_random.Judge(types.SimpleNamespace(dump=dump), folder)
+        for name, files in own_scenes.SCENES.items():
+            inside = os.path.join(folder, name)
+            os.mkdir(inside)
+            for file_name, text in files.items():
+                with open(os.path.join(inside, file_name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            found = judge.compare(inside, {})
+            results.add("scenes of this project: composition, against OpenUSD", name,
+                        None if found.kind == "equal" else f"{found.kind} {found.text}")
+    return results.finish(is_whole=False)
+
+
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "-v"]
-    if not os.path.exists(os.path.join(CONFORMANCE, "cases.txt")):
-        suite.skip(f"no {CONFORMANCE}")
+    own = compare_own(arguments[0]) if not arguments[1:] else 0
     results = suite.Results("composition", MISSES)
     for case in sorted(find_cases(arguments[1:]), key=label_of):
         difference = compare(arguments[0], case)
         results.add(label_of(case), case.name, difference)
         if difference and "-v" in sys.argv:
             print(f"{case.name}: {difference}")
-    return results.finish(is_whole=not arguments[1:])
+    return own | results.finish(is_whole=not arguments[1:] and suite.HAS_PUBLISHED)
 
 
 if __name__ == "__main__":
