@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-# Runs ctest and shows what did not pass, one line for a hundred tests that did, and the end. All
-# that ctest says is in build/PRESET/tests.log.
+# Runs ctest and shows what did not pass, one line for a hundred tests that did, the end, and which
+# tests skipped and why. All that ctest says is in build/PRESET/tests.log. With TENON_STRICT_SKIPS=1
+# a test that skips and is not in tools/allowed_skips.txt fails the run.
 #   tools/quiet_tests.sh PRESET OPTIONS_OF_CTEST...
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,4 +20,8 @@ ctest --preset "$preset" "$@" 2>&1 | tee "build/$preset/tests.log" |
     elif ! [[ $line =~ $begun ]]; then
       printf '%s\n' "$line"
     fi
-  done
+  done || failed=$?
+python3 tools/skipped_tests.py "build/$preset/tests.log" \
+  "build/$preset/Testing/Temporary/LastTest.log" \
+  ${TENON_STRICT_SKIPS:+--strict} || failed=${failed:-$?}
+exit "${failed:-0}"
