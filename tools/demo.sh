@@ -33,22 +33,27 @@ awk -F, '
   (NR - 2) % 60 == 0 { printf "%8.2f %12.4f %12.4f\n", $1, $column["/World/can.position.z"],
                        $column["/World/table.position.z"] }' "$log"
 
-# The page is built where node 18 and npm are.
+# The page is built where node 18 and npm are, and a Chromium draws it. Neither has to be here.
 looked_at=
 if [ -e build/release/share/tenon/page/report.html ]; then
   step "One page with all of it" -- \
     "$tenon" report "$grasp" --physics mujoco --duration 4 -o "$page"
   looked_at="   $page             the same in one page: open it in a browser and press play
 "
-  # A Chromium draws, where there is one; `tenon doctor` looks for it.
-  if "$tenon" doctor --quiet 2>/dev/null | grep -q '^browser .*not available'; then
-    printf '\n== No picture: there is no Chromium here (apt-get install chromium)\n'
-  else
-    step "A picture of its end: the hand holds the can above the table" -- \
-      "$tenon" record "$grasp" --physics mujoco --time 4 -o "$picture" --size 960x540
+  said=build/demo/record.txt
+  if step "A picture of its end: the hand holds the can above the table" -- \
+    "$tenon" record "$grasp" --physics mujoco --time 4 -o "$picture" --size 960x540 2>"$said"; then
     looked_at+="   $picture              the hand that holds the can
 "
+  elif [ $? -eq 4 ]; then # exit code 4: missing
+    printf '\n== No picture without a Chromium: apt-get install chromium, then make demo again\n'
+  else
+    cat "$said" >&2
+    printf '\n== No picture: Chromium failed as told above; make demo tries again\n'
   fi
+else
+  printf '\n== No picture without node 18, npm and a Chromium: %s\n' \
+    "apt-get install nodejs npm chromium, then make demo again"
 fi
 
 cat <<END

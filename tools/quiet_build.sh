@@ -27,9 +27,8 @@ show() { # show WORDS: replaces the line on a terminal
 
 show "Configuring $folder ..."
 [ -t 2 ] || echo "Building $folder ..." >&2
-if [ ! -e "$folder/build.ninja" ]; then
-  cmake --preset "$preset" >>"$log" 2>&1 || fail
-fi
+# Each time: what was missing when it was configured first may be installed by now.
+cmake --preset "$preset" >>"$log" 2>&1 || fail
 
 build() { # what ninja says, line by line, and its exit code
   NINJA_STATUS='[%f/%t] ' cmake --build "$folder" -j "$jobs" --target "$@" 2>&1

@@ -218,7 +218,7 @@ def "a" (
 </robot>
 """)
         done = subprocess.run([TENON, "convert", "--json", robot, self.folder / "r.usda"],
-                              capture_output=True, check=False)
+                              capture_output=True, check=False, cwd=self.folder)
         found = {finding["rule"]: text_at(finding, self.folder)
                  for finding in json.loads(done.stdout)["diagnostics"]}
         self.assertEqual(found["robot.zero-axis"], '<joint name="j" type="revolute">')
