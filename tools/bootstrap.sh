@@ -7,6 +7,7 @@
 #   tools/bootstrap.sh build wheel   to make the Python package
 #   tools/bootstrap.sh build test   to run the tests too
 #   tools/bootstrap.sh build test judge   and the long runs, some of which need clang
+#   tools/bootstrap.sh picture      to draw: the page, and a Chromium
 #   tools/bootstrap.sh docs         to make the reference of the headers
 #   tools/bootstrap.sh deb          to make the Debian package
 # Says what it does; asks for root only to install; with all there it does nothing, offline too.
@@ -81,7 +82,24 @@ need_for_page() {
   need_tool npm npm --version
 }
 
-need_for_engines() { need_tool cargo cargo --version; }
+need_for_picture() {
+  need_for_page
+  need_tool chromium chromium_is_there
+}
+
+# Debian 12's own cargo is too old to fetch single crates; it has a newer one beside it.
+need_for_engines() {
+  cargo_is_new_enough && return
+  local package=cargo
+  if (. /etc/os-release && [ "${VERSION_CODENAME:-}" = bookworm ]); then
+    package=cargo-web
+  fi
+  missing+=("$package")
+}
+
+cargo_is_new_enough() {
+  cargo --version >/dev/null 2>&1 && at_least 1.70 "$(cargo --version | cut -d ' ' -f 2)"
+}
 
 need_for_test() {
   need_for_engines
@@ -150,9 +168,10 @@ for part in "${@:-build}"; do
     judge) need_for_judge ;;
     docs) need_for_docs ;;
     deb) need_for_deb ;;
+    picture) need_for_picture ;;
     *)
       echo "bootstrap: unknown part '$part'; expected:" \
-        "build, engines, wheel, test, judge, docs, deb" >&2
+        "build, engines, wheel, test, judge, picture, docs, deb" >&2
       exit 2
       ;;
   esac

@@ -100,6 +100,10 @@ def corpora():
 
 def judgements():
     """All of them, in the order in which they are run."""
+    # README's two commands where nothing is installed; --only demo and --user-alone are shorter.
+    for number, codename in ((12, "bookworm"), (13, "trixie")):
+        yield Judgement(f"fresh_machine_debian{number}",
+                        ["{python}", "-B", "tests/release/fresh_machine.py", codename])
     yield Judgement("separate_files", ["cmake", "-E", "echo", "every source compiles alone"],
                     "separate")
     core = [f"tenon_{folder}_test" for folder in CORE]
@@ -299,7 +303,7 @@ def main():
     known = {judgement.name: judgement for judgement in judgements()}
     if arguments.list:
         for judgement in known.values():
-            print(f"{judgement.name:20} {' '.join(judgement.command)}")
+            print(f"{judgement.name:24} {' '.join(judgement.command)}")
         return 0
     unknown = [name for name in arguments.names if name not in known]
     if unknown:
@@ -310,7 +314,7 @@ def main():
     for name in arguments.names or known:
         good, result, minutes = run(known[name], python, arguments.jobs)
         all_good = all_good and good
-        print(f"{'good' if good else 'BAD '} {name:20} {minutes:6.1f} min  {result}", flush=True)
+        print(f"{'good' if good else 'BAD '} {name:24} {minutes:6.1f} min  {result}", flush=True)
         if not arguments.no_table:
             write_row(known[name], good, result, minutes)
     return 0 if all_good else 1
