@@ -551,8 +551,7 @@ def compare_files(program, paths):
 
 def is_here(key):
     """The file of a known miss is this project's, or published and here."""
-    name = key.split()[0].split(":")[0]
-    return suite.HAS_PUBLISHED or os.path.exists(os.path.join(REPO, name))
+    return suite.HAS_PUBLISHED or os.path.exists(os.path.join(REPO, key.split()[0].split(":")[0]))
 
 
 def read_misses():
@@ -582,8 +581,8 @@ def main():
         found, cases = found + rows, cases + count
     misses = read_misses()
     new = [(key, detail) for key, detail in found if key not in misses]
-    gone = sorted(set(filter(is_here, misses)) - {key for key, _ in found})
-    gone = [] if arguments.files else gone
+    listed = () if arguments.files else filter(is_here, misses)
+    gone = sorted(set(listed) - {key for key, _ in found})
     for key, detail in found if arguments.list else new:
         print(f"{key}\n    {detail}")
     for key in gone:
