@@ -308,6 +308,19 @@ std::optional<std::size_t> end_of_faulty_block(std::string_view text, std::size_
   return std::nullopt;
 }
 
+std::vector<Bracket> brackets_of(std::string_view text) {
+  std::vector<Bracket> found;
+  Walk walk(text, 0);
+  while (!walk.at_end()) {
+    const std::size_t at = walk.offset();
+    const char c = walk.next();
+    if (!walk.is_lost() && std::string_view("(){}[]").find(c) != kNone) {
+      found.push_back({c, at});
+    }
+  }
+  return found;
+}
+
 std::size_t end_of_fault(std::string_view text, std::size_t offset) {
   if (offset >= text.size() || text[offset] == '\n' || text[offset] == '\r') {
     return std::min(offset, text.size());

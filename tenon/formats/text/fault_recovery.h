@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 /// Where reading can go on behind a fault, for the sake of further messages: what has a fault is
 /// refused all the same.
@@ -21,6 +22,15 @@ std::optional<std::size_t> end_of_faulty_statement(std::string_view text, std::s
 /// '{' have a fault at `fault`. Nothing when the text there does not look like one.
 std::optional<std::size_t> end_of_faulty_block(std::string_view text, std::size_t start,
                                                std::size_t fault);
+
+struct Bracket {
+  char sign = ' ';
+  std::size_t offset = 0;
+};
+
+/// All brackets in order, but for those in comments, strings, asset paths and paths. Up to a
+/// comment or string that has no end.
+std::vector<Bracket> brackets_of(std::string_view text);
 
 /// Behind what is wrong at `offset`: the end of a word, number, string or path, or of one sign.
 std::size_t end_of_fault(std::string_view text, std::size_t offset);

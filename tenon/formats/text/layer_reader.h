@@ -34,6 +34,8 @@ class LayerReader {
   /// Goes on behind faults where that is safe. The layer is refused all the same: with the first
   /// of them, which has the others with it.
   void find_all_faults() { state_.finds_all_faults = true; }
+  /// Where reading failed, an offset.
+  std::size_t fault() const { return state_.cursor.fault(); }
   bool has_faults() const { return !state_.faults.empty(); }
 
   /// The first part ended where it was to stop, between two statements.
