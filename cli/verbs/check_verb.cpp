@@ -30,6 +30,7 @@ struct CheckArguments {
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
   std::string profile;
   bool fix = false;
+  bool suggested = false;
   bool dry_run = false;
   bool strict = false;
   bool list_rules = false;
@@ -54,6 +55,7 @@ Result<CheckAssetsOptions> check_options(const CheckArguments& options) {
   wanted.check.profile = options.profile;
   TENON_TRY(wanted.check.readings, chosen_readings(options.readings));
   wanted.correct = options.fix;
+  wanted.suggested = options.suggested;
   if (!options.dry_run) {
     wanted.write = [](const std::vector<EditedFile>& files) {
       Outputs outputs = Outputs::in_place();
@@ -111,6 +113,10 @@ std::string summary_of(const FindingCounts& counts, const CheckedAssets& outcome
             (options.dry_run ? " would be corrected" : " corrected");
   } else if (counts.fixable > 0) {
     text += "; --fix corrects " + std::to_string(counts.fixable);
+  }
+  if (!options.suggested && counts.suggested > 0) {
+    text += "; --fix --suggested renames " + std::to_string(counts.suggested) +
+            (counts.fixable > 0 && !options.fix ? " more" : "");
   }
   return text;
 }
@@ -214,6 +220,9 @@ Result<void> check_arguments(const CheckArguments& options, bool json) {
   if (options.dry_run && !options.fix) {
     return Error(ErrorCode::Invalid, "--dry-run shows what --fix would do").with_fix("add --fix");
   }
+  if (options.suggested && !options.fix) {
+    return Error(ErrorCode::Invalid, "--suggested says what --fix corrects").with_fix("add --fix");
+  }
   return check_selection(options.rules);
 }
 
@@ -238,6 +247,7 @@ constexpr const char* kCheckFooter =
     "  tenon check hand.usda\n"
     "  tenon check assets/ --strict --baseline known.json\n"
     "  tenon check hand.usda --fix --dry-run\n"
+    "  tenon check hand.usda --fix --suggested\n"
     "  tenon check hand.usda --profile isaac-3.0\n"
     "  tenon check hand.usda --for physx,newton\n"
     "  tenon check hand.usda --skip collider.overlap-at-start,units --sarif hand.sarif\n"
@@ -253,6 +263,8 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   options->asset.add_options_to(verb);
   verb.add_flag("--fix", options->fix,
                 "Correct what has a safe fix, in the files of the asset that own it");
+  verb.add_flag("--suggested", options->suggested,
+                "With --fix: also the names and types that messages suggest");
   verb.add_flag("--dry-run", options->dry_run, "With --fix: print the difference, write nothing");
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);

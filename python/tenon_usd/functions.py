@@ -66,7 +66,7 @@ def check(
 
 
 def rules() -> list[dict[str, Any]]:
-    """All rules of check(): {"rule", "severity", "numbers", "autofix", "title"}."""
+    """All rules of check(): {"rule", "severity", "numbers", "autofix", "suggestedFix", "title"}."""
     rows: list[dict[str, Any]] = _tenon.rules()["rules"]
     return rows
 

@@ -11,7 +11,7 @@ namespace {
 
 bool same_place(const SpecEdit& a, const SpecEdit& b) {
   return a.path == b.path && a.field == b.field && a.added_api == b.added_api &&
-         a.removed_api == b.removed_api;
+         a.removed_api == b.removed_api && a.new_name == b.new_name;
 }
 
 Result<void> apply_one(const SpecEdit& edit, edit::LayerEditor& editor) {
@@ -24,7 +24,10 @@ Result<void> apply_one(const SpecEdit& edit, edit::LayerEditor& editor) {
     return Error(ErrorCode::NotFound, "there is no spec <" + edit.path.str() + "> to correct")
         .in_file(edit.layer);
   }
-  if (!edit.added_api.empty()) {
+  if (!edit.new_name.empty()) {
+    TENON_CHECK(editor.rename_property(edit.path, edit.new_name));
+    editor.retarget(edit.path, edit.path.parent().property(edit.new_name));
+  } else if (!edit.added_api.empty()) {
     editor.add_api(edit.path, edit.added_api);
   } else if (!edit.removed_api.empty()) {
     editor.withdraw_api(edit.path, edit.removed_api);

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tenon/check/fixes.h"
 #include "tenon/check/rule.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/finding_place.h"
@@ -123,6 +124,9 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
     finding.rule = find_rule(diagnostic.rule);
     if (finding.rule != nullptr && finding.rule->fix != nullptr) {
       finding.fix = finding.rule->fix(subject, diagnostic);
+    }
+    if (FixFunction* const suggest = suggestion_for(diagnostic.rule)) {
+      finding.suggestion = suggest(subject, diagnostic);
     }
     finding.diagnostic = std::move(diagnostic);
     findings.push_back(std::move(finding));

@@ -25,6 +25,7 @@ struct SpecEdit {
   bool uniform = false;  ///< the variability of that attribute
   Token added_api;       ///< not empty: put into the spec's apiSchemas; no field is set
   Token removed_api;     ///< not empty: taken out of them
+  Token new_name{};      ///< not empty: `path` is a property, which gets this name
 };
 
 /// What removes a finding without changing what the asset means to tenon.
@@ -38,6 +39,8 @@ struct Finding {
   const Rule* rule = nullptr;  ///< null: no rule of that id is known
   Diagnostic diagnostic;
   std::optional<Fix> fix;
+  /// What is most likely meant, where the finding knows it: not made unless it is asked for.
+  std::optional<Fix> suggestion{};
   /// Variants of the default prim's set "Physics" under which it holds; empty: all that there are.
   std::vector<std::string> variants;
 };

@@ -18,6 +18,7 @@
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/physics/prim_roles.h"
 #include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::check {
@@ -314,6 +315,73 @@ std::optional<Fix> fix_guide_purpose(const Subject& subject, const Diagnostic& d
     }
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// Every spec of the property gets the name, unless the prim has a property of that name or a spec
+/// cannot be written to.
+std::optional<Fix> new_name(const Subject& subject, const Diagnostic& diagnostic,
+                            std::string_view space) {
+  const stage::Prim prim = prim_of(subject, diagnostic);
+  const Token name(diagnostic.property);
+  const Token wanted(std::string(space) + diagnostic.property);
+  if (!prim || !prim.attribute(wanted).spec_stack().empty()) {
+    return std::nullopt;
+  }
+  Fix fix{"rename " + name.str() + " to " + wanted.str(), {}};
+  for (const SpecSite& site : prim.attribute(name).spec_stack()) {
+    if (!is_writable(*site.layer)) {
+      return std::nullopt;
+    }
+    SpecEdit edit;
+    edit.layer = site.layer->identifier();
+    edit.path = site.path;
+    edit.new_name = wanted;
+    fix.edits.push_back(std::move(edit));
+  }
+  return fix.edits.empty() ? std::nullopt : std::optional<Fix>(std::move(fix));
+}
+
+std::optional<Fix> suggest_prefix(const Subject& subject, const Diagnostic& diagnostic) {
+  return new_name(subject, diagnostic, "physics:");
+}
+
+std::optional<Fix> suggest_input(const Subject& subject, const Diagnostic& diagnostic) {
+  return new_name(subject, diagnostic, "inputs:");
+}
+
+std::optional<Fix> suggest_joint_type(const Subject& subject, const Diagnostic& diagnostic) {
+  const stage::Prim prim = prim_of(subject, diagnostic);
+  const Token meant = prim ? physics::meant_joint_type(prim.type_name().view()) : Token();
+  if (meant.empty()) {
+    return std::nullopt;
+  }
+  Fix fix{"change the type to " + meant.str(), {}};
+  for (const SpecSite& site : prim.spec_stack()) {
+    if (site.spec->get_or(fields::typeName, Token()) != prim.type_name()) {
+      continue;
+    }
+    if (!is_writable(*site.layer)) {
+      return std::nullopt;
+    }
+    SpecEdit edit;
+    edit.layer = site.layer->identifier();
+    edit.path = site.path;
+    edit.field = fields::typeName;
+    edit.value = Value(meant);
+    fix.edits.push_back(std::move(edit));
+  }
+  return fix.edits.empty() ? std::nullopt : std::optional<Fix>(std::move(fix));
+}
+
+}  // namespace
+
+FixFunction* suggestion_for(std::string_view rule) {
+  return rule == "attribute.unprefixed"    ? suggest_prefix
+         : rule == "attribute.moved-input" ? suggest_input
+         : rule == "joint.unknown-type"    ? suggest_joint_type
+                                           : nullptr;
 }
 
 }  // namespace tenon::check

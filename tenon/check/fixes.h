@@ -24,4 +24,8 @@ FixFunction fix_nested_root;
 FixFunction fix_binding_api;
 FixFunction fix_guide_purpose;
 
+/// What findings of a rule suggest beside safe fixes: the name or type that their message knows.
+/// Null: nothing.
+FixFunction* suggestion_for(std::string_view rule);
+
 }  // namespace tenon::check

@@ -100,6 +100,30 @@ void check_crossed_limits(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-98: how UsdPhysics locks an axis of a D6 joint, so it is told and no fault.
+void check_locked_axes(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    std::vector<std::string> locked;
+    for (const scene::Limit& limit : joint.limits) {
+      if (limit.locked()) {
+        locked.emplace_back(dof_name(limit.dof));
+      }
+    }
+    if (joint.kind != JointKind::D6 || !joint.enabled || locked.empty()) {
+      continue;
+    }
+    const bool one = locked.size() == 1;
+    std::string names;
+    for (std::size_t i = 0; i < locked.size(); ++i) {
+      names += (i == 0 ? "" : i + 1 == locked.size() ? " and " : ", ") + locked[i];
+    }
+    report.at(prim_of(subject, joint), Token("limit:" + locked[0] + ":physics:low"),
+              (one ? "the limit of " : "the limits of ") + names + (one ? " has" : " have") +
+                  " low above high, which locks " + (one ? "this axis" : "these axes"),
+              "swap low and high where the axis should move");
+  }
+}
+
 void check_radian_limits(const Subject& subject, Reporter& report) {
   const NarrowJoints count = count_narrow(subject);
   const bool all_narrow = count.closed >= 3 && count.narrow == count.closed;

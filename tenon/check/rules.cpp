@@ -123,6 +123,7 @@ std::string facts_of(const Rule& rule) {
   text += rule.numbers.empty() ? "" : "; " + std::string(rule.numbers);
   text += rule.engines.empty() ? "" : "; `--for` " + std::string(rule.engines);
   text += rule.fix == nullptr ? "" : "; `--fix` corrects it";
+  text += suggestion_for(rule.id) == nullptr ? "" : "; `--fix --suggested` corrects it";
   return text;
 }
 

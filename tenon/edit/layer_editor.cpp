@@ -319,6 +319,38 @@ Result<void> LayerEditor::remove_property(Path path) {
   return {};
 }
 
+Result<void> LayerEditor::rename_property(Path path, Token name) {
+  if (!path.is_property() || !layer_->has(path)) {
+    return no_spec("property", path, *layer_);
+  }
+  const Path to = path.parent().property(name);
+  TENON_CHECK(check_new_property(to));
+  if (layer_->has(to)) {
+    return Error(ErrorCode::Invalid, "<" + path.str() + "> cannot become <" + to.str() +
+                                         ">: a property is there already")
+        .in_file(layer_->identifier())
+        .with_prim(path.prim().str())
+        .with_rule("edit.bad-move")
+        .with_fix("choose another name or remove what is there");
+  }
+  for (const Path old : subtree(path)) {
+    if (const Spec* there = layer_->find(old)) {
+      Spec spec = *there;
+      erase_spec(old);
+      const SpecKind kind = spec.kind;
+      add_spec(old.replace_prefix(path, to, false), kind) = std::move(spec);
+    }
+  }
+  for (const Token field : {fields::properties, fields::propertyOrder}) {
+    std::vector<Token> names = layer_->children(path.parent(), field);
+    if (std::find(names.begin(), names.end(), path.name()) != names.end()) {
+      std::replace(names.begin(), names.end(), path.name(), name);
+      set(path.parent(), field, Value(std::move(names)));
+    }
+  }
+  return {};
+}
+
 void LayerEditor::add_api(Path prim, Token name) {
   const auto op = get_or(prim, fields::apiSchemas, layer::ListOp<Token>{});
   const auto has = [&](const std::vector<Token>& names) {

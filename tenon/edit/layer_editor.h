@@ -68,6 +68,9 @@ class LayerEditor {
                                 bool custom);
   Result<void> create_relationship(Path path, layer::Variability variability, bool custom);
   Result<void> remove_property(Path path);
+  /// It keeps its place among the properties. Errors: Invalid for a name that cannot be or is
+  /// taken.
+  Result<void> rename_property(Path path, Token name);
 
   // Applied API schemas. The prim must exist.
   /// Names it in the list, unless it is there. What the layer deletes from weaker ones stays.

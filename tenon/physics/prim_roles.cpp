@@ -68,15 +68,6 @@ PrimKind kind_of(const stage::Prim& prim) {
   return PrimKind::Other;
 }
 
-/// Older texts name joints "<Kind>PhysicsJoint".
-Token meant_type_of(std::string_view type) {
-  constexpr std::string_view kOld = "PhysicsJoint";
-  if (type.size() <= kOld.size() || !type.ends_with(kOld)) {
-    return {};
-  }
-  return Token("Physics" + std::string(type.substr(0, type.size() - kOld.size())) + "Joint");
-}
-
 bool is_of_vendor(Token type, const std::vector<Token>& schemas) {
   const schema::Registry& registry = schema::Registry::instance();
   return registry.is_vendor(type) ||
@@ -86,6 +77,14 @@ bool is_of_vendor(Token type, const std::vector<Token>& schemas) {
 }
 
 }  // namespace
+
+Token meant_joint_type(std::string_view type) {
+  constexpr std::string_view kOld = "PhysicsJoint";
+  if (type.size() <= kOld.size() || !type.ends_with(kOld)) {
+    return {};
+  }
+  return Token("Physics" + std::string(type.substr(0, type.size() - kOld.size())) + "Joint");
+}
 
 bool Roles::matters() const {
   constexpr std::uint64_t kNot = std::uint64_t{1} << static_cast<unsigned>(Api::MaterialBinding);
@@ -115,7 +114,7 @@ Roles RoleFinder::find(const stage::Prim& prim, const std::vector<Token>& schema
   Roles roles;
   roles.kind = kind_of(prim);
   roles.xformable = prim.is_a(Token("Xformable"));
-  roles.meant_type = meant_type_of(prim.type_name().view());
+  roles.meant_type = meant_joint_type(prim.type_name().view());
   roles.vendor = is_of_vendor(prim.type_name(), schemas);
   for (std::size_t i = 0; i < api_names_.size(); ++i) {
     const std::string prefix = api_names_[i].str() + ":";

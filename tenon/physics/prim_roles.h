@@ -72,6 +72,9 @@ struct Roles {
   bool matters() const;
 };
 
+/// The type that a name of older texts means, which call joints "<Kind>PhysicsJoint", or "".
+Token meant_joint_type(std::string_view type);
+
 /// Finds the roles of prims of one stage; asks the schemas once per combination of type and applied
 /// APIs, which is what definitions of prims are made for.
 class RoleFinder {

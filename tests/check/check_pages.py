@@ -61,7 +61,8 @@ def kinds():
 def facts(rule):
     text = rule["severity"] + (f"; {rule['numbers']}" if rule["numbers"] else "")
     text += f"; `--for` {' '.join(rule['engines'])}" if rule["engines"] else ""
-    return text + ("; `--fix` corrects it" if rule["autofix"] else "")
+    text += "; `--fix` corrects it" if rule["autofix"] else ""
+    return text + ("; `--fix --suggested` corrects it" if rule["suggestedFix"] else "")
 
 
 def link(name):
@@ -72,7 +73,7 @@ def index(table, rows):
     text = HEAD + f"\n## All {len(table)} rules\n\n| rule | severity | numbers | fix | about |\n"
     text += "|---|---|---|---|---|\n"
     for rule in table:
-        fix = "yes" if rule["autofix"] else ""
+        fix = "yes" if rule["autofix"] else "suggested" if rule["suggestedFix"] else ""
         text += (f"| {link(rule['rule'])} | {rule['severity']} | {rule['numbers']} | {fix} | "
                  f"{rule['title']} |\n")
     for key, title in LISTS.items():

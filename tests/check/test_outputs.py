@@ -157,10 +157,10 @@ class Outputs(unittest.TestCase):
                          {"severity", "rule", "message", "file", "line", "column",
                           "endLine", "endColumn", "prim",
                           "property", "fix", "variants", "numbers", "engines", "autofix",
-                          "suppressed"})
+                          "suggestedFix", "suppressed"})
         self.assertEqual(answer["diagnostics"][0]["numbers"], "S-45, M-19")
         self.assertEqual(answer["summary"], {"errors": 0, "warnings": 1, "infos": 0, "fixable": 0,
-                                             "suppressed": 0})
+                                             "suggested": 0, "suppressed": 0})
 
     def test_text_is_one_line_per_finding_on_standard_output(self):
         process = run(SCENES / "mass.inertia-triangle.usda")

@@ -115,6 +115,36 @@ class Fixes(unittest.TestCase):
                 if rule != "variant.physics-unselected":  # that one switches physics on
                     self.assertEqual(self.meaning(scene), meaning)
 
+    def suggested(self):
+        """-> scenes of rules that suggest a name or type, by rule."""
+        rules = [rule for rule in PLANTED if RULES[rule]["suggestedFix"]]
+        self.assertGreaterEqual(len(rules), 3)
+        return {rule: self.folder / "scenes" / f"{rule}.usda" for rule in rules}
+
+    def test_suggestions_are_made_where_they_are_asked_for_and_remove_the_finding(self):
+        for rule, scene in self.suggested().items():
+            with self.subTest(rule):
+                before = scene.read_text()
+                found = [d for d in check(scene)["diagnostics"] if d["rule"] == rule]
+                self.assertTrue(found and all(d["suggestedFix"] for d in found), found)
+                self.assertEqual(check(scene)["summary"]["suggested"], len(found))
+                check(scene, "--fix")
+                self.assertEqual(scene.read_text(), before)
+                answer = check(scene, "--fix", "--suggested")
+                self.assertNotIn(rule, [d["rule"] for d in answer["diagnostics"]])
+                text = scene.read_text()
+                self.assertIn("# A comment that fixes keep.", text)
+                self.assertEqual(len(set(text.splitlines()) - set(before.splitlines())),
+                                 len(found))
+                again = check(scene, "--fix", "--suggested")
+                self.assertEqual(again["corrected"], [])
+
+    def test_suggestions_need_fix(self):
+        scene = next(iter(self.suggested().values()))
+        done = run("check", scene, "--suggested")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("add --fix", done.stderr)
+
     def test_a_dry_run_prints_the_difference_and_writes_nothing(self):
         scenes = self.scenes()
         before = {rule: scene.read_text() for rule, scene in scenes.items()}

@@ -99,6 +99,11 @@ class AssetsCheck {
     if (!checked) {
       return std::vector<EditedFile>();
     }
+    for (check::Finding& finding : checked->findings) {
+      if (options_.suggested && !finding.fix) {
+        finding.fix = finding.suggestion;
+      }
+    }
     TENON_TRY(std::vector<EditedFile> files,
               corrected_files(checked->findings, options_.check.open.files));
     const bytes::ReadPolicy policy = policy_of(path);
@@ -183,6 +188,7 @@ FindingCounts count_findings(const std::vector<ReportedFinding>& findings) {
        : severity == Severity::Warning ? counts.warnings
                                        : counts.infos);
     counts.fixable += reported.finding.fix ? 1 : 0;
+    counts.suggested += reported.finding.suggestion && !reported.finding.fix ? 1 : 0;
   }
   return counts;
 }

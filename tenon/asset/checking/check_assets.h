@@ -15,7 +15,8 @@ namespace tenon {
 
 struct CheckAssetsOptions {
   CheckOptions check;
-  bool correct = false;  ///< what has a safe fix
+  bool correct = false;    ///< what has a safe fix
+  bool suggested = false;  ///< and what has a suggestion
   /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
   /// written, and the findings are those before.
   Function<Result<void>(const std::vector<EditedFile>& files)> write;
@@ -49,6 +50,7 @@ struct FindingCounts {
   std::size_t warnings = 0;
   std::size_t infos = 0;
   std::size_t fixable = 0;
+  std::size_t suggested = 0;   ///< with a suggestion and no safe fix
   std::size_t suppressed = 0;  ///< counted as nothing else
 };
 FindingCounts count_findings(const std::vector<ReportedFinding>& findings);

@@ -5,6 +5,7 @@
 #include "tenon/answers/diagnostic_json.h"
 #include "tenon/asset/answers/edited_json.h"
 #include "tenon/base/text/shown_path.h"
+#include "tenon/check/fixes.h"
 #include "tenon/check/rule.h"
 
 namespace tenon {
@@ -31,6 +32,7 @@ Json finding_json(const ReportedFinding& reported) {
   item["numbers"] = numbered ? Json(finding.rule->numbers) : Json(nullptr);
   item["engines"] = finding.rule == nullptr ? Json(nullptr) : engines_json(*finding.rule);
   item["autofix"] = finding.fix ? Json(finding.fix->what) : Json(nullptr);
+  item["suggestedFix"] = finding.suggestion ? Json(finding.suggestion->what) : Json(nullptr);
   item["suppressed"] = reported.suppressed;
   return item;
 }
@@ -55,11 +57,9 @@ Json checked_json(const CheckedAssets& checked, std::string_view corrected_key) 
     body["diagnostics"].push_back(finding_json(reported));
   }
   const FindingCounts counts = count_findings(checked.findings);
-  body["summary"] = {{"errors", counts.errors},
-                     {"warnings", counts.warnings},
-                     {"infos", counts.infos},
-                     {"fixable", counts.fixable},
-                     {"suppressed", counts.suppressed}};
+  body["summary"] = {{"errors", counts.errors},       {"warnings", counts.warnings},
+                     {"infos", counts.infos},         {"fixable", counts.fixable},
+                     {"suggested", counts.suggested}, {"suppressed", counts.suppressed}};
   body["assets"] = Json::array();
   for (const AssetChecked& asset : checked.assets) {
     body["assets"].push_back({{"asset", shown_path(asset.path)},
@@ -79,6 +79,7 @@ Json rules_json() {
                     {"severity", severity_name(rule.severity)},
                     {"numbers", rule.numbers},
                     {"autofix", rule.fix != nullptr},
+                    {"suggestedFix", check::suggestion_for(rule.id) != nullptr},
                     {"engines", engines_json(rule)},
                     {"title", check::title_of(check::page_of(rule.id))}});
   }
