@@ -21,9 +21,14 @@
 namespace tenon::cli {
 namespace {
 
+/// A list of targets in which an edit of a prim or property is followed.
+bool is_of_target(const AssetEdit& edit, const EditedPlace& place) {
+  return edit.is_about_specs() && place.spec.is_property() && !edit.object.is_property();
+}
+
 std::string what(const AssetEdit& edit, const EditedPlace& place) {
   const bool api = !edit.api.empty();
-  if (edit.is_about_specs() && place.spec.is_property()) {
+  if (is_of_target(edit, place)) {
     return place.spec.str() + "  without its target " + edit.object.str();
   }
   return edit.object.str() +
@@ -34,7 +39,7 @@ std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
   std::string text = shown_path(place.file);
   text += place.line == 0 ? "" : ":" + std::to_string(place.line);
   text += "  " + what(edit, place);
-  const bool of_target = edit.is_about_specs() && place.spec.is_property();
+  const bool of_target = is_of_target(edit, place);
   if (edit.kind == AssetEdit::Kind::AddVariant) {
     text += "  + " + edit.value;
   } else if (edit.api.empty() && !of_target) {

@@ -235,16 +235,18 @@ void add_remove(const Command& parent, const Globals& globals, Chosen& chosen) {
 
 void add_rename(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
-      parent.add_subcommand("rename", "Rename a prim, with all that names it in the asset's files");
+      parent.add_subcommand("rename", "Rename a prim or a property, with all that names it");
   auto options = std::make_shared<AuthorArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
-  verb.add_option("path", options->prim, "The prim").required();
+  verb.add_option("path", options->prim, "The prim, or PRIM.PROPERTY").required();
   verb.add_option("name", options->name, "Its new name").required();
   add_file_options(verb, *options, false);
   verb.footer(
       "Targets of relationships, connections and arcs follow, in all files of the asset; texts\n"
       "that hold paths, such as expressions, do not.\n\n"
-      "Examples:\n  tenon rename s.usda /World/box crate");
+      "Examples:\n"
+      "  tenon rename s.usda /World/box crate\n"
+      "  tenon rename s.usda /World/box.mass physics:mass");
   choose(verb, chosen, [&globals, options] {
     return run_author(globals, "rename", *options, [&](Diagnostics& diagnostics) {
       return rename_in_asset(options->asset, options->prim, options->name, author_options(*options),

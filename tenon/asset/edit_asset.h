@@ -34,13 +34,14 @@ struct AssetEdit {
     ClearProperty,
     ApplyApi,
     RemoveApi,
-    AddTargets,     ///< to what a relationship has
-    RemoveTargets,  ///< of a relationship, also from weaker layers; from `layer` where tidy
-    DefinePrim,     ///< of type `type_name`, below a prim that is there, with what `arc` brings
-    AddVariant,     ///< `value` is SET=VARIANT
-    RemoveVariant,  ///< the same, from all own files; a set goes with its last one
-    RemovePrim,     ///< from all own files, and from every list of targets in them
-    RenamePrim,     ///< `value` is the new name, also for all that names the prim in own files
+    AddTargets,      ///< to what a relationship has
+    RemoveTargets,   ///< of a relationship, also from weaker layers; from `layer` where tidy
+    DefinePrim,      ///< of type `type_name`, below a prim that is there, with what `arc` brings
+    AddVariant,      ///< `value` is SET=VARIANT
+    RemoveVariant,   ///< the same, from all own files; a set goes with its last one
+    RemovePrim,      ///< from all own files, and from every list of targets in them
+    RenamePrim,      ///< `value` is the new name, also for all that names the prim in own files
+    RenameProperty,  ///< the same of a property
   };
 
   Kind kind = Kind::SetProperty;
@@ -62,7 +63,7 @@ struct AssetEdit {
 
   bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }
   /// About a prim or its variants as a whole.
-  bool is_about_prim() const { return kind >= Kind::DefinePrim; }
+  bool is_about_prim() const { return kind >= Kind::DefinePrim && kind != Kind::RenameProperty; }
   /// In all files of the asset at once.
   bool is_about_specs() const { return kind >= Kind::RemoveVariant; }
 };

@@ -427,6 +427,66 @@ class Verbs(Case):
         self.refused("edit.prim-exists", "rename", self.scene, "/World/tip", "box")
         self.refused("edit.bad-name", "rename", self.scene, "/World/tip", "a-b")
 
+    def test_what_cannot_be_opened_is_not_referenced(self):
+        self.do("new", self.scene)
+        before = self.scene.read_bytes()
+        for name, text in (("shape.obj", "v 0 0 0\n"), ("robot.xml", "<mujoco/>\n"),
+                           ("broken.usda", "#usda 1.0\ndef {\n")):
+            file = self.folder / name
+            file.write_text(text, encoding="utf-8")
+            for kind in ("reference", "payload"):
+                self.refused("edit.not-a-layer", "add", self.scene, f"/World/part={kind}",
+                             "--file", file)
+        done = tenon("add", self.scene, "/World/part=reference", "--file",
+                          self.folder / "nowhere.usda")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere.usda", done.stderr)
+        self.assertEqual(self.scene.read_bytes(), before)
+
+    def test_a_property_gets_a_new_name_where_it_stands(self):
+        self.scene.write_text("""#usda 1.0
+(
+    defaultPrim = "r"
+)
+
+def Material "r"
+{
+    # how much it gives way
+    float outputs:softness.connect = </r/b.hardness>
+
+    def Xform "b" (
+        variants = {
+            string v = "x"
+        }
+        prepend variantSets = "v"
+    )
+    {
+        custom float hardness = 3 (  # kept
+            doc = "of the skin"
+        )
+        float hardness.timeSamples = {
+            1: 2,
+        }
+        variantSet "v" = {
+            "x" {
+                float hardness = 4
+            }
+        }
+    }
+}
+""", encoding="utf-8")
+        before = self.scene.read_text(encoding="utf-8")
+        self.do("rename", self.scene, "/r/b.hardness", "inputs:hardness")
+        self.assertEqual(self.scene.read_text(encoding="utf-8"),
+                         before.replace("float hardness", "float inputs:hardness")
+                         .replace("b.hardness", "b.inputs:hardness"))
+        self.do("rename", self.scene, "/r/b.inputs:hardness", "hardness")
+        self.assertEqual(self.scene.read_text(encoding="utf-8"), before)
+        self.refused("edit.bad-name", "rename", self.scene, "/r/b.hardness", "a-b")
+        self.refused("edit.no-spec", "rename", self.scene, "/r/b.nothing", "something")
+        self.refused("edit.property-exists", "rename", self.scene, "/r.outputs:softness",
+                     "outputs:softness")
+
     def test_texts_that_are_paths_follow_a_new_name(self):
         self.scene.write_text("""#usda 1.0
 (

@@ -6,8 +6,10 @@
 
 #include "tenon/asset/authoring/remove_edits.h"
 #include "tenon/asset/layers/asset_layers.h"
+#include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/edit/stage_editor.h"
+#include "tenon/formats/open_layer.h"
 #include "tenon/layer/fields.h"
 #include "tenon/property_value.h"
 
@@ -16,6 +18,23 @@ namespace {
 
 using ReadRequest = Result<std::vector<AssetEdit>> (*)(const Stages&, const AuthoringRequest&,
                                                        const std::string&);
+
+/// What an arc names must be a layer; else the prim would stay empty.
+Result<void> check_opens(const AssetArc& arc, const bytes::Files& files) {
+  TENON_TRY(const auto contents, files->open(arc.file, {}));
+  Diagnostics ignored;
+  const bool opens = formats::format_of(*contents) == formats::LayerFormat::Package ||
+                     formats::read_layer(contents, arc.file, ignored);
+  if (opens) {
+    return {};
+  }
+  const std::string name = shown_path(arc.file);
+  return Error(ErrorCode::Invalid, "it cannot be read as USD, so nothing can reference it")
+      .in_file(arc.file)
+      .with_rule("edit.not-a-layer")
+      .with_fix("name a .usd, .usda, .usdc or .usdz file; tenon check " + name +
+                " says what is wrong with a USD file, tenon convert reads URDF and MJCF");
+}
 
 Result<AuthoredAsset> author(const std::string& path, const AuthoringRequest& request,
                              const EditOptions& options, ReadRequest read,
@@ -30,6 +49,11 @@ Result<AuthoredAsset> author(const std::string& path, const AuthoringRequest& re
       stages.push_back(view.stage);
     }
     TENON_TRY(authored.edits, read(stages, request, options.engine));
+    for (const AssetEdit& edit : authored.edits) {
+      if (edit.arc) {
+        TENON_CHECK(check_opens(*edit.arc, options.open.files));
+      }
+    }
   }
   TENON_TRY(authored.asset, edit_asset(path, authored.edits, options, diagnostics));
   return authored;
@@ -68,15 +92,16 @@ Result<AuthoredAsset> remove_from_asset(const std::string& path, const Authoring
   return author(path, request, options, remove_edits, diagnostics);
 }
 
-Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& prim,
+Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& named,
                                       const std::string& name, const EditOptions& options,
                                       Diagnostics& diagnostics) {
-  const auto object = Path::parse(prim);
-  if (!object || !object->is_absolute() || !object->is_prim()) {
-    return not_a_path(prim, "prim");
+  const auto object = Path::parse(named);
+  const bool fits = object && object->is_absolute() && (object->is_prim() || object->is_property());
+  if (!fits) {
+    return not_a_path(named, "prim or property");
   }
   AssetEdit edit;
-  edit.kind = AssetEdit::Kind::RenamePrim;
+  edit.kind = object->is_prim() ? AssetEdit::Kind::RenamePrim : AssetEdit::Kind::RenameProperty;
   edit.object = *object;
   edit.value = name;
   edit.may_rest = true;

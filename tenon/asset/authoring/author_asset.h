@@ -37,8 +37,8 @@ Result<AuthoredAsset> add_to_asset(const std::string& path, const AuthoringReque
                                    const EditOptions& options, Diagnostics& diagnostics);
 Result<AuthoredAsset> remove_from_asset(const std::string& path, const AuthoringRequest& request,
                                         const EditOptions& options, Diagnostics& diagnostics);
-/// Renames a prim in all files of the asset, with all that names it there.
-Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& prim,
+/// Renames a prim or a property in all files of the asset, with all that names it there.
+Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& object,
                                       const std::string& name, const EditOptions& options,
                                       Diagnostics& diagnostics);
 

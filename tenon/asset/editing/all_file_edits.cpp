@@ -24,6 +24,8 @@ Result<std::vector<Path>> edit_specs(edit::LayerEditor& editor, Path site, const
       return remove_prim_specs(editor, site);
     case Kind::RenamePrim:
       return rename_prim_specs(editor, site, Token(edit.value));
+    case Kind::RenameProperty:
+      return rename_property_specs(editor, site.property(edit.object.name()), Token(edit.value));
     default:
       break;
   }
@@ -42,8 +44,37 @@ Error nothing_to_edit(const AssetEdit& edit) {
       .with_fix("tenon where names the files that do");
 }
 
+bool is_renaming(const AssetEdit& edit) {
+  return edit.kind == Kind::RenamePrim || edit.kind == Kind::RenameProperty;
+}
+
+/// The same of a property; that schemas declare it does not count.
+Result<void> check_new_property(const AllFiles& files, const AssetEdit& edit) {
+  const Path prim = edit.object.prim();
+  if (!is_namespaced_identifier(edit.value)) {
+    return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is no name of a property")
+        .with_prim(prim.str())
+        .with_rule("edit.bad-name")
+        .with_fix("use identifiers joined by ':', as in physics:mass");
+  }
+  for (const auto& stage : files.stages) {
+    const stage::Prim found = stage->prim(prim);
+    if (found && !found.attribute(Token(edit.value)).spec_stack().empty()) {
+      return Error(ErrorCode::Invalid,
+                   "<" + prim.property(Token(edit.value)).str() + "> is there already")
+          .with_prim(prim.str())
+          .with_rule("edit.property-exists")
+          .with_fix("choose another name, or remove it first with `tenon set --clear`");
+    }
+  }
+  return {};
+}
+
 /// A name that is free under every selection.
 Result<void> check_new_name(const AllFiles& files, const AssetEdit& edit) {
+  if (edit.kind == Kind::RenameProperty) {
+    return check_new_property(files, edit);
+  }
   if (!is_identifier(edit.value)) {
     return Error(ErrorCode::Invalid, "\"" + edit.value + "\" is not a prim name")
         .with_prim(edit.object.str())
@@ -76,13 +107,13 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
   EditedPlace place;
   place.file = file;
   place.spec = spec;
-  const bool of_target = spec.kind() == PathKind::Property;
+  const bool of_target = spec.is_property() && edit.kind != Kind::RenameProperty;
   const bool removes = edit.kind == Kind::RemovePrim;
   if (!of_target) {
     place.before = removes                            ? type_of(files, edit.object)
                    : edit.kind == Kind::RemoveVariant ? edit.value
                                                       : edit.object.name().str();
-    place.after = edit.kind == Kind::RenamePrim ? edit.value : "";
+    place.after = is_renaming(edit) ? edit.value : "";
   }
   place.why = of_target ? "it named what is gone" : "the file speaks of it";
   if (removes && !of_target) {
@@ -94,10 +125,10 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
 }  // namespace
 
 Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit) {
-  if (edit.kind == Kind::RenamePrim) {
+  if (is_renaming(edit)) {
     TENON_CHECK(check_new_name(files, edit));
   }
-  TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object));
+  TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object.prim()));
   std::vector<EditedPlace> places;
   for (const auto& [layer, site] : sites) {
     edit::StageEditor* editor = files.editor_of(layer);
@@ -144,10 +175,19 @@ Result<std::string> file_that_goes(const AllFiles& files, const AssetEdit& edit)
   return std::string();
 }
 
+namespace {
+
+/// The prim or property that the edit is about, with an opinion.
+bool is_there(const stage::Stage& stage, const AssetEdit& edit) {
+  const stage::Prim prim = stage.prim(edit.object.prim());
+  return prim && (edit.kind != Kind::RenameProperty ||
+                  !prim.attribute(edit.object.name()).spec_stack().empty());
+}
+
+}  // namespace
+
 Result<void> check_done_in_all_files(const stage::Stage& stage, const AssetEdit& edit) {
-  const stage::Prim prim = stage.prim(edit.object);
-  const bool gone = !prim || edit.kind == Kind::RemoveVariant;
-  if (gone) {
+  if (edit.kind == Kind::RemoveVariant || !is_there(stage, edit)) {
     return {};
   }
   return Error(ErrorCode::Invalid,

@@ -98,6 +98,7 @@ Result<void> author_edit(edit::StageEditor& editor, const AssetEdit& edit, Path 
     case Kind::RemoveVariant:
     case Kind::RemovePrim:
     case Kind::RenamePrim:
+    case Kind::RenameProperty:
       return Error(ErrorCode::Invalid, "this edit is of all files at once");
     case Kind::ApplyApi:
       return editor.as_one_step([&]() -> Result<void> {

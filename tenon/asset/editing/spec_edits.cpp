@@ -141,6 +141,26 @@ Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim
   return changed;
 }
 
+Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path property,
+                                                Token name) {
+  std::vector<Path> specs;  // those in variants, too
+  for (const layer::Layer::Entry& entry : editor.layer().entries()) {
+    if (entry.path.is_property() && entry.path.name() == property.name() &&
+        entry.path.parent().strip_variants() == property.prim()) {
+      specs.push_back(entry.path);
+    }
+  }
+  std::vector<Path> changed;
+  for (const Path spec : specs) {
+    TENON_CHECK(editor.rename_property(spec, name));
+    changed.push_back(spec.parent().property(name));
+  }
+  if (!changed.empty()) {
+    editor.retarget(property, property.prim().property(name));
+  }
+  return changed;
+}
+
 Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,
                                                const std::string& set, const std::string& variant) {
   std::vector<Path> changed;

@@ -24,6 +24,10 @@ Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim
 /// are its path (path_texts.h).
 Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
 
+/// Renames the specs of a property, and the property in all targets and connections of the layer.
+Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path property,
+                                                Token name);
+
 /// Removes a variant with all in it, and the set when it was its last one.
 Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,
                                                const std::string& set, const std::string& variant);
