@@ -3,19 +3,23 @@
 # Installs everything: the program, the worker that it starts, the engine library of both, all
 # licences; and the library with its headers and package files, which --component development
 # installs alone (with the component runtime, which it needs).
-# The build folder has the same layout, so that the executable finds the library from either place.
+# The build folder has the same layout, so that the executable finds the libraries from either place
+# and no path of the build is compiled into it (tests/release/moved.py).
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
+set(library_folder ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
+file(MAKE_DIRECTORY ${library_folder})
 set_target_properties(tenon_worker PROPERTIES INSTALL_RPATH
                                               "$ORIGIN/../../${CMAKE_INSTALL_LIBDIR}/tenon")
 if(TENON_WITH_MUJOCO)
-  set(library_folder ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
-  file(MAKE_DIRECTORY ${library_folder})
   file(CREATE_LINK ${tenon_mujoco_library} ${library_folder}/${tenon_mujoco_soname} SYMBOLIC)
 endif()
 if(TENON_WITH_PHYSX)
-  set(library_folder ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/tenon)
-  file(MAKE_DIRECTORY ${library_folder})
   file(CREATE_LINK ${tenon_physx_library} ${library_folder}/libtenon_physx.so SYMBOLIC)
+endif()
+if(tenon_coacd_library)
+  foreach(folder coacd coacd.libs)
+    file(CREATE_LINK ${tenon_coacd_root}/${folder} ${library_folder}/${folder} SYMBOLIC)
+  endforeach()
 endif()
 if(TARGET tenon_cli)
   set_target_properties(tenon_cli PROPERTIES INSTALL_RPATH

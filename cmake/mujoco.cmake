@@ -58,8 +58,7 @@ list(GET tenon_mujoco_library 0 tenon_mujoco_library)
 file(GLOB tenon_mujoco_licences ${tenon_mujoco_root}/licences/*)
 get_filename_component(tenon_mujoco_soname ${tenon_mujoco_library} NAME)
 # What mujoco_library.cpp looks for.
-set(tenon_mujoco_names TENON_MUJOCO_SONAME="${tenon_mujoco_soname}"
-                       TENON_MUJOCO_LIBRARY="${tenon_mujoco_library}")
+set(tenon_mujoco_names TENON_MUJOCO_SONAME="${tenon_mujoco_soname}")
 
 list(APPEND CMAKE_INSTALL_RPATH ${tenon_mujoco_root}/lib)  # of all that is built and not installed
 add_library(mujoco::mujoco SHARED IMPORTED GLOBAL)

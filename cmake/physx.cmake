@@ -41,6 +41,5 @@ tenon_fetch_once(tenon_make_physx ${tenon_physx_root} ${tenon_physx_root}/lib)
 add_library(physx::headers INTERFACE IMPORTED GLOBAL)
 target_include_directories(physx::headers SYSTEM INTERFACE ${tenon_physx_root}/include)
 set(tenon_physx_library ${tenon_physx_root}/lib/libtenon_physx.so)
-set(tenon_physx_names TENON_PHYSX_SONAME="libtenon_physx.so"
-                      TENON_PHYSX_LIBRARY="${tenon_physx_library}")
+set(tenon_physx_names TENON_PHYSX_SONAME="libtenon_physx.so")
 list(APPEND CMAKE_INSTALL_RPATH ${tenon_physx_root}/lib)  # of all that is built and not installed

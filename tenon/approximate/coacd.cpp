@@ -48,12 +48,11 @@ SharedLibrary open_library() {
     return SharedLibrary::open({chosen});
   }
   const std::string here = folder_of_this_code();
-  std::vector<std::string> files;
-  if (!here.empty()) {
-    files = {here + "../lib/tenon/coacd/lib_coacd.so", here + "tenon/coacd/lib_coacd.so"};
+  if (here.empty()) {
+    return {};
   }
-  files.emplace_back(TENON_COACD_LIBRARY);
-  return SharedLibrary::open(files);
+  return SharedLibrary::open({here + "../" TENON_LIBRARY_FOLDER "/tenon/coacd/lib_coacd.so",
+                              here + "tenon/coacd/lib_coacd.so"});
 }
 
 Library load() {

@@ -10,8 +10,7 @@
 namespace tenon::approximate {
 
 /// lib_coacd.so can be loaded and has what is needed: from the file that the environment variable
-/// TENON_COACD_LIBRARY names, from lib/tenon/coacd of the installation, or from where the build
-/// put it.
+/// TENON_COACD_LIBRARY names, else from lib/tenon/coacd of the prefix that this code lies in.
 bool coacd_is_there();
 
 /// Convex pieces of a closed mesh (Wei et al., Approximate Convex Decomposition for 3D Meshes with

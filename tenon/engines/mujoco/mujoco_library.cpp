@@ -21,8 +21,7 @@ mjfConFilt* contact_filter = nullptr;
 mjfGeneric* control = nullptr;
 
 const SharedLibrary& library() {
-  static const SharedLibrary opened =
-      SharedLibrary::open({own_library(TENON_MUJOCO_SONAME), TENON_MUJOCO_LIBRARY});
+  static const SharedLibrary opened = SharedLibrary::open({own_library(TENON_MUJOCO_SONAME)});
   return opened;
 }
 

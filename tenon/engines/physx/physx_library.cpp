@@ -45,8 +45,7 @@ class Memory final : public px::PxAllocatorCallback {
 };
 
 const SharedLibrary& physx_file() {
-  static const SharedLibrary opened =
-      SharedLibrary::open({own_library(TENON_PHYSX_SONAME), TENON_PHYSX_LIBRARY});
+  static const SharedLibrary opened = SharedLibrary::open({own_library(TENON_PHYSX_SONAME)});
   return opened;
 }
 
