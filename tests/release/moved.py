@@ -21,6 +21,7 @@ import installed
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 HAND = os.path.join(ROOT, "examples/inspire_hand")
 ROBOT = os.path.join(ROOT, "examples/cpp/robots/arm.urdf")
+SOURCES = (".h", ".hpp", ".inl", ".c", ".cpp")
 # In a mount namespace of its own, in which the folders $1 and $2 are empty, runs the rest.
 HIDDEN = 'mount -t tmpfs none "$1" && { [ ! -d "$2" ] || mount -t tmpfs none "$2"; } && ' \
          'shift 2 && exec "$@"'
@@ -40,10 +41,11 @@ def faults_of_files(prefix, folders):
         for path in (os.path.join(folder, name) for name in names):
             with open(path, "rb") as file:
                 content = file.read()
-            for named in (each for each in folders if each.encode() in content):
-                start = content.index(named.encode())
-                text = re.match(rb"[\x20-\x7e]*", content[start:start + 120])[0].decode()
-                yield f"{os.path.relpath(path, prefix)} names {text}"
+            for named in folders:
+                for found in re.finditer(re.escape(named.encode()) + rb"/[\x20-\x7e]*", content):
+                    text = found[0].decode()
+                    if not text.endswith(SOURCES):  # in messages of PhysX, which opens none
+                        yield f"{os.path.relpath(path, prefix)} names {text}"
 
 
 def run(prefix, work, *words, hide=()):
