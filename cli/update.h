@@ -14,9 +14,10 @@ namespace tenon::cli {
 
 struct UpdateArguments {
   bool update = false;
-  std::string conflicts = "edits";
+  std::string conflicts;  ///< empty: edits stay, and each run tells of them
 
   void add_to(const Command& verb);
+  UpdateChoice choice() const { return {keep(), conflicts == "edits"}; }
   diff::Side keep() const { return conflicts == "source" ? diff::Side::Source : diff::Side::Edits; }
 };
 

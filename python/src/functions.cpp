@@ -145,7 +145,7 @@ ConvertFileOptions convert_options(const OpenArguments& arguments, const std::st
 /// and keeps its edits.
 struct UpdateArguments {
   bool update = false;
-  std::string conflicts;  ///< "edits", "source" or "fail"
+  std::string conflicts;  ///< "edits", "source", "fail" or empty
 
   diff::Side keep() const { return conflicts == "source" ? diff::Side::Source : diff::Side::Edits; }
 };
@@ -158,7 +158,8 @@ Result<std::optional<UpdatedAsset>> update_written(const structure::Package& mad
   if (!how.update) {
     return std::optional<UpdatedAsset>();
   }
-  TENON_TRY(auto updated, update_folder(made, folder, how.keep(), found));
+  TENON_TRY(auto updated,
+            update_folder(made, folder, {how.keep(), how.conflicts == "edits"}, found));
   if (updated && how.conflicts == "fail" && !updated->conflicts.empty()) {
     return Error(ErrorCode::Invalid, "edits and the source changed the same thing, in " +
                                          std::to_string(updated->conflicts.size()) +

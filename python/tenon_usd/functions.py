@@ -129,8 +129,8 @@ def compare(
     )
 
 
-def _check_conflicts(conflicts: str) -> None:
-    if conflicts not in ("edits", "source", "fail"):
+def _check_conflicts(conflicts: str | None) -> None:
+    if conflicts not in (None, "edits", "source", "fail"):
         raise ValueError(f"conflicts is {conflicts!r}; expected edits, source or fail")
 
 
@@ -147,7 +147,7 @@ def convert(
     packages: Mapping[str, PathLike] | None = None,
     force: bool = False,
     update: bool = False,
-    conflicts: str = "edits",
+    conflicts: str | None = None,
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """A robot's description (URDF, MJCF) as an asset, or an asset as a description.
@@ -159,8 +159,9 @@ def convert(
 
     `update` takes over what the source changed since and keeps what was edited in `output`, and
     adds "updated": {"files", "edits", "changes", "moved", "conflicts"}; give the options that the
-    asset was made with. Where both changed the same thing `conflicts` decides: "edits", "source",
-    or "fail", which writes nothing and raises InvalidError of the rule "update.conflict".
+    asset was made with. Where both changed the same thing edits stay and every update reports it,
+    but for what `conflicts` says: "edits" (they stay and are reported no more), "source", or
+    "fail", which writes nothing and raises InvalidError of the rule "update.conflict".
     """
     _check_conflicts(conflicts)
     if not isinstance(gains, str):
@@ -179,7 +180,7 @@ def convert(
         folders,
         force,
         update,
-        conflicts,
+        conflicts or "",
     )
 
 
@@ -191,7 +192,7 @@ def structure(
     engines: Sequence[str] = (),
     force: bool = False,
     update: bool = False,
-    conflicts: str = "edits",
+    conflicts: str | None = None,
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """An asset in Asset Structure 3.0, proven to be the same and written to `folder`.
@@ -211,7 +212,7 @@ def structure(
         force,
         list(engines),
         update,
-        conflicts,
+        conflicts or "",
     )
 
 

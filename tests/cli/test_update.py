@@ -174,6 +174,54 @@ class Update(unittest.TestCase):
                         self.convert(output, "--update")
                         self.assertEqual(self.value(asset, f"{b}.physics:mass"), mass)
 
+    def test_a_conflict_is_told_until_it_is_settled(self):
+        for output, asset in self.places():
+            with self.subTest(output):
+                self.robot.write_text(urdf())
+                self.convert(output)
+                b, c = self.path(asset, "b"), self.path(asset, "c")
+                self.set(asset, f"{b}.physics:mass=20", f"{c}.physics:mass=30")
+                self.robot.write_text(urdf({"a": 9, "b": 5}))
+                for _ in range(2):  # told again, with nothing to write the second time
+                    answer = self.convert(output, "--update", code=1, conflicts=1)
+                    self.assertEqual(self.value(asset, f"{b}.physics:mass"), 20)
+                    self.assertIn("--conflicts source", answer["diagnostics"][-1]["fix"])
+                self.assertEqual(answer["updated"]["files"], [])
+                self.assertEqual(answer["updated"]["conflicts"][0]["base"], "2")
+                # What was taken meanwhile is no conflict when the source changes it once more.
+                self.robot.write_text(urdf({"a": 8, "b": 5}))
+                self.convert(output, "--update", code=1, conflicts=1)
+                # Settled: silent, until the source changes it again.
+                self.convert(output, "--update", "--conflicts", "edits", code=1, conflicts=1)
+                self.convert(output, "--update")
+                self.robot.write_text(urdf({"a": 8, "b": 6}))
+                self.convert(output, "--update", code=1, conflicts=1)
+                self.convert(output, "--update", "--conflicts", "edits", code=1, conflicts=1)
+                # The advice works, even then.
+                self.convert(output, "--update", "--conflicts", "source", code=1, conflicts=1)
+                self.assertEqual([self.value(asset, f"{self.path(asset, n)}.physics:mass")
+                                  for n in "abc"], [8, 6, 30])
+                self.convert(output, "--update")
+
+    def test_the_source_can_be_followed_after_a_removal_was_refused(self):
+        for output, asset in self.places():
+            with self.subTest(output):
+                self.robot.write_text(urdf(links="abcd"))
+                self.convert(output)
+                self.set(asset, f"{self.path(asset, 'd')}.physics:mass=20")
+                self.robot.write_text(urdf(links="abc"))
+                for _ in range(2):
+                    code, answer = tenon("convert", self.robot, output, "--update")
+                    self.assertEqual((code, {c["kind"] for c in answer["updated"]["conflicts"]}),
+                                     (1, {"removedBySource"}))
+                    self.assertEqual(self.value(asset, f"{self.path(asset, 'd')}.physics:mass"), 20)
+                code, answer = tenon("convert", self.robot, output, "--update", "--conflicts",
+                                     "source")
+                self.assertEqual(code, 1, answer)
+                self.assertNotIn('/d"', json.dumps(tenon("tree", asset)[1]))
+                self.assertEqual(len(tenon("physics", asset)[1]["bodies"]), 3)
+                self.convert(output, "--update")
+
     def test_links_that_come_and_go(self):
         for output, asset in self.places():
             with self.subTest(output):

@@ -34,6 +34,7 @@ namespace fields = layer::fields;
 constexpr std::size_t kKeptElements = 32;
 constexpr std::string_view kArrayMark = "tenon:array ";
 constexpr const char* kDigestsName = "digests";
+constexpr const char* kKeptName = "kept";
 constexpr const char* kLayerEnding = ".usdc";
 
 /// The bytes of an array of numbers; none of other values.
@@ -93,17 +94,29 @@ std::string digest_lines(const structure::Digests& digests) {
   return text;
 }
 
-structure::Digests digests_from(std::string_view text) {
-  structure::Digests digests;
+/// Each line of digest_lines.
+template <class Take>
+void each_digest(std::string_view text, Take take) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     const auto digest = structure::digest_from(line.substr(0, structure::kDigestDigits));
     if (digest && line.size() > structure::kDigestDigits + 1) {
-      digests.emplace(line.substr(structure::kDigestDigits + 1), *digest);
+      take(std::string(line.substr(structure::kDigestDigits + 1)), *digest);
     }
   }
-  return digests;
+}
+
+/// A line for each conflict; 0 for a layer without one that need not be told again.
+std::string kept_lines(const std::map<std::string, std::set<std::uint64_t>>& kept) {
+  std::string text;
+  for (const auto& [name, conflicts] : kept) {
+    text += digest_lines({{name, 0}});
+    for (const std::uint64_t conflict : conflicts) {
+      text += digest_lines({{name, conflict}});
+    }
+  }
+  return text;
 }
 
 Result<BaseCopy> decode_base(std::shared_ptr<const bytes::FileBytes> bytes) {
@@ -112,7 +125,13 @@ Result<BaseCopy> decode_base(std::shared_ptr<const bytes::FileBytes> bytes) {
   for (const bytes::ZipEntry& entry : archive.entries()) {
     TENON_TRY(const auto contents, archive.read(entry));
     if (entry.name == kDigestsName) {
-      copy.digests = digests_from(contents->text());
+      each_digest(contents->text(), [&](std::string name, std::uint64_t digest) {
+        copy.digests.emplace(std::move(name), digest);
+      });
+    } else if (entry.name == kKeptName) {
+      each_digest(contents->text(), [&](std::string name, std::uint64_t conflict) {
+        copy.kept[std::move(name)].insert(conflict);
+      });
     } else if (entry.name.ends_with(kLayerEnding)) {
       const std::string name =
           entry.name.substr(0, entry.name.size() - std::string_view(kLayerEnding).size());
@@ -126,22 +145,34 @@ Result<BaseCopy> decode_base(std::shared_ptr<const bytes::FileBytes> bytes) {
 
 }  // namespace
 
-Result<std::string> encode_base(const structure::Package& package) {
+Result<std::string> encode_base(const structure::Package& package, BaseChanges changes) {
   const structure::PackageFile& opening = package.files.at(package.interface);
   structure::Digests digests = structure::noted_digests(*opening.layer, package.interface);
   digests[package.interface] =
       structure::noted_own_digest(opening.bytes->text(), package.interface).value_or(0);
   std::vector<std::pair<std::string, std::string>> layers;
+  for (const auto& [name, digest] : changes.digests) {
+    digests.erase(name);
+    if (digest) {
+      digests.emplace(name, *digest);
+    }
+  }
   for (const auto& [name, file] : package.files) {
     if (file.layer != nullptr) {
-      layer::Layer layer = without_arrays(*file.layer);
+      const auto changed = changes.layers.find(name);
+      layer::Layer layer = without_arrays(
+          changed == changes.layers.end() ? *file.layer : std::move(changed->second));
       structure::remove_note(layer);
       TENON_TRY(std::string encoded, formats::encode_layer(layer, formats::LayerFormat::Crate));
       layers.emplace_back(name + kLayerEnding, std::move(encoded));
     }
   }
   const std::string lines = digest_lines(digests);
+  const std::string kept = kept_lines(changes.kept);
   std::vector<bytes::ZipFile> files{{kDigestsName, lines}};
+  if (!kept.empty()) {
+    files.push_back({kKeptName, kept});
+  }
   for (const auto& [name, contents] : layers) {
     files.push_back({name, contents});
   }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "tenon/base/result.h"
@@ -19,11 +21,21 @@ namespace tenon {
 
 struct BaseCopy {
   structure::Digests digests;  ///< of all files by name; of that which opens the asset its own
-  std::map<std::string, layer::Layer> layers;  ///< by name, without notes
+  std::map<std::string, layer::Layer> layers;  ///< by name; without notes
+  /// Layers that are not as they were made, because edits stayed in conflicts (kept_base.h), each
+  /// with the conflicts that are settled (conflict_digest).
+  std::map<std::string, std::set<std::uint64_t>> kept;
+};
+
+/// What of a copy is unlike what was made.
+struct BaseChanges {
+  std::map<std::string, layer::Layer> layers;
+  std::map<std::string, std::optional<std::uint64_t>> digests;  ///< none: no such file
+  std::map<std::string, std::set<std::uint64_t>> kept;          ///< as in BaseCopy
 };
 
 /// The bytes of the copy of a package with its layers stored.
-Result<std::string> encode_base(const structure::Package& package);
+Result<std::string> encode_base(const structure::Package& package, BaseChanges changes = {});
 /// structure::write_package with the copy among the files, as for every asset that tenon makes.
 Result<void> write_with_base(structure::Package package, const std::string& folder,
                              const structure::WriteOptions& options);

@@ -5,7 +5,8 @@
 // Where two of them are the same the third decides, and its bytes stand as they are. Layers that
 // differ in all three are merged. A prim that stays in one layer because of an edit stays in all,
 // so layers are merged a second time where there is one. Notes are those of the new conversion,
-// alone: a later run still sees what was edited.
+// alone: a later run still sees what was edited. Where an edit stays in a conflict, the copy for
+// later runs keeps the old value, so that they find the conflict again.
 #include "tenon/asset/updating/update_asset.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "tenon/answers/opinions.h"
 #include "tenon/asset/updating/base_copy.h"
 #include "tenon/asset/updating/follow_moves.h"
+#include "tenon/asset/updating/kept_base.h"
 #include "tenon/base/content_digest.h"
 #include "tenon/base/file_finding.h"
 #include "tenon/bytes/file_bytes.h"
@@ -101,9 +103,13 @@ Result<BaseCopy> base_of(const std::string& folder, const std::string& opening) 
 
 class AssetUpdate {
  public:
-  AssetUpdate(const structure::Package& made, std::string folder, diff::Side keep,
+  AssetUpdate(const structure::Package& made, std::string folder, const UpdateChoice& choice,
               Diagnostics& diagnostics)
-      : made_(made), folder_(std::move(folder)), keep_(keep), diagnostics_(diagnostics) {}
+      : made_(made),
+        folder_(std::move(folder)),
+        keep_(choice.keep),
+        settles_(choice.settles),
+        diagnostics_(diagnostics) {}
 
   Result<UpdatedAsset> run() {
     TENON_CHECK(gather());
@@ -172,8 +178,10 @@ class AssetUpdate {
       return *state.base == (name == made_.interface ? structure::own_digest(bytes->text(), name)
                                                      : content_digest(bytes->text()));
     };
-    state.is_edited = !is_base(state.present);
-    state.is_changed = !is_base(state.made);
+    // The digest of a layer is that of what was made, even where its base is older.
+    const bool keeps_conflict = base_.kept.contains(name) && base_.layers.contains(name);
+    state.is_edited = keeps_conflict || !is_base(state.present);
+    state.is_changed = keeps_conflict || !is_base(state.made);
     states_.push_back(std::move(state));
     return {};
   }
@@ -271,12 +279,12 @@ class AssetUpdate {
   }
 
   Result<void> merge_files() {
-    const diff::MergeOptions options{keep_, whole_prims()};
+    options_ = {keep_, whole_prims()};
     for (const FileStates& state : states_) {
       const auto layers = layers_.find(state.name);
       const bool three = layers != layers_.end() && layers->second.edited && layers->second.source;
       if (three) {
-        TENON_CHECK(merge_layer(state, layers->second, options));
+        TENON_CHECK(merge_layer(state, layers->second));
       } else {
         merge_whole_file(state);
       }
@@ -284,15 +292,16 @@ class AssetUpdate {
     return {};
   }
 
-  Result<void> merge_layer(const FileStates& state, Layers& layers,
-                           const diff::MergeOptions& options) {
+  Result<void> merge_layer(const FileStates& state, Layers& layers) {
     const layer::Layer none(layers.edited->identifier());
     diff::MergedLayer merged = diff::merge_layers(layers.base ? *layers.base : none, *layers.edited,
-                                                  *layers.source, options);
+                                                  *layers.source, options_);
     result_.edits += merged.edits;
     result_.changes += merged.changes;
+    keep_base(state.name, layers.base ? *layers.base : none, *layers.source, merged.conflicts);
     for (MergeConflict& conflict : merged.conflicts) {
-      result_.conflicts.push_back({state.name, std::move(conflict)});
+      const std::uint64_t digest = conflict_digest(conflict);
+      add_conflict(state.name, std::move(conflict), digest);
     }
     const bool opens = state.name == made_.interface;
     const bool as_made = diff::layer_differences(*layers.source, merged.layer).empty();
@@ -328,12 +337,14 @@ class AssetUpdate {
     conflict.kind = state.made == nullptr      ? MergeConflict::Kind::RemovedBySource
                     : state.present == nullptr ? MergeConflict::Kind::RemovedByEdit
                                                : MergeConflict::Kind::Values;
-    result_.conflicts.push_back({state.name, std::move(conflict)});
+    add_conflict(state.name, std::move(conflict),
+                 state.made == nullptr ? 1 : content_digest(state.made->text()));
     if (keep_ == diff::Side::Source) {
       ++result_.changes;
       put(state.name, state.present, state.made);
     } else {
       ++result_.edits;
+      changes_.digests[state.name] = state.base;
     }
   }
 
@@ -352,8 +363,32 @@ class AssetUpdate {
     result_.files.push_back(std::move(file));
   }
 
+  /// Of a layer, for later runs.
+  void keep_base(const std::string& name, const layer::Layer& base, const layer::Layer& source,
+                 const std::vector<MergeConflict>& conflicts) {
+    const bool touches_whole =
+        std::any_of(options_.whole.begin(), options_.whole.end(),
+                    [&](Path prim) { return base.has(prim) || source.has(prim); });
+    if (keep_ == diff::Side::Edits && (!conflicts.empty() || touches_whole)) {
+      changes_.layers.emplace(name, kept_base(base, source, conflicts, options_.whole));
+      changes_.kept[name];
+    }
+  }
+
+  /// Unless an earlier run was told that the edit is to stay.
+  void add_conflict(const std::string& file, MergeConflict conflict, std::uint64_t digest) {
+    const auto known = base_.kept.find(file);
+    const bool is_settled = known != base_.kept.end() && known->second.contains(digest);
+    if (keep_ == diff::Side::Edits && (settles_ || is_settled)) {
+      changes_.kept[file].insert(digest);
+    }
+    if (keep_ == diff::Side::Source || settles_ || !is_settled) {
+      result_.conflicts.push_back({file, std::move(conflict)});
+    }
+  }
+
   Result<void> renew_base() {
-    TENON_TRY(std::string copy, encode_base(made_));
+    TENON_TRY(std::string copy, encode_base(made_, std::move(changes_)));
     const std::string name = structure::copy_place(made_.interface);
     TENON_TRY(const Bytes present, bytes_if_there(path_of(name)));
     put(name, present, bytes::FileBytes::own(std::move(copy)));
@@ -393,7 +428,9 @@ class AssetUpdate {
     }
     Diagnostic finding = file_finding(
         Severity::Warning, "update.conflict", std::move(message), path_of(conflict.file), 0,
-        edits ? "give --conflicts source to take what the source says" : "");
+        edits ? "give --conflicts source to take what the source says, or --conflicts edits to "
+                "keep the edit and not to be told again"
+              : "");
     if (!what.path.empty()) {
       finding.prim = what.path.prim_or_variant().str();
       finding.property = what.path.is_property() ? what.path.name().str() : std::string();
@@ -404,29 +441,33 @@ class AssetUpdate {
   const structure::Package& made_;
   std::string folder_;
   diff::Side keep_;
+  bool settles_;
   Diagnostics& diagnostics_;
   BaseCopy base_;
   std::vector<FileStates> states_;
   std::map<std::string, Layers> layers_;
+  diff::MergeOptions options_;
+  BaseChanges changes_;
   UpdatedAsset result_;
 };
 
 }  // namespace
 
 Result<UpdatedAsset> update_asset(const structure::Package& made, const std::string& folder,
-                                  diff::Side keep, Diagnostics& diagnostics) {
-  return AssetUpdate(made, folder, keep, diagnostics).run();
+                                  const UpdateChoice& choice, Diagnostics& diagnostics) {
+  return AssetUpdate(made, folder, choice, diagnostics).run();
 }
 
 Result<std::optional<UpdatedAsset>> update_folder(const structure::Package& made,
-                                                  const std::string& folder, diff::Side keep,
+                                                  const std::string& folder,
+                                                  const UpdateChoice& choice,
                                                   Diagnostics& diagnostics) {
   std::error_code error;
   if (!std::filesystem::exists(std::filesystem::path(folder) / made.interface, error)) {
     return std::optional<UpdatedAsset>();
   }
   const std::string place = std::filesystem::canonical(folder, error).string();
-  TENON_TRY(UpdatedAsset updated, update_asset(made, error ? folder : place, keep, diagnostics));
+  TENON_TRY(UpdatedAsset updated, update_asset(made, error ? folder : place, choice, diagnostics));
   return std::optional<UpdatedAsset>(std::move(updated));
 }
 

@@ -33,20 +33,29 @@ struct UpdatedAsset {
   std::size_t changes = 0;     ///< those that become what the source says now
 };
 
+/// What becomes of conflicts.
+struct UpdateChoice {
+  diff::Side keep = diff::Side::Edits;
+  /// With edits kept: for good, so that later updates do not tell these conflicts again.
+  bool settles = false;
+};
+
 /// The asset in `folder`, whose files are read, with the differences between the conversion that
 /// made it and `made`, the new one with its layers stored. Edits stay: their base is the copy of
 /// the former output (base_copy.h), or the asset itself where its note says that it is unedited.
-/// Where both changed the same thing, `keep` decides, and a finding of the rule "update.conflict"
-/// names it. Where the source is unchanged nothing differs, and no file is in the answer. No file
-/// is touched. Errors: NotFound "update.nothing" where there is no such asset; Invalid
-/// "update.no-base" where it was edited and its former state is unknown; those of reading.
+/// Where both changed the same thing, `choice` decides, and a finding of the rule "update.conflict"
+/// names it in each run until the conflict is resolved or settled. Where the source is unchanged
+/// nothing differs, and no file is in the answer. No file is touched. Errors: NotFound
+/// "update.nothing" where there is no such asset; Invalid "update.no-base" where it was edited and
+/// its former state is unknown; those of reading.
 Result<UpdatedAsset> update_asset(const structure::Package& made, const std::string& folder,
-                                  diff::Side keep, Diagnostics& diagnostics);
+                                  const UpdateChoice& choice, Diagnostics& diagnostics);
 
 /// update_asset for what `made.interface` opens in `folder`; nothing where there is no such file,
 /// so that `made` must be written as it is.
 Result<std::optional<UpdatedAsset>> update_folder(const structure::Package& made,
-                                                  const std::string& folder, diff::Side keep,
+                                                  const std::string& folder,
+                                                  const UpdateChoice& choice,
                                                   Diagnostics& diagnostics);
 
 }  // namespace tenon
