@@ -40,6 +40,10 @@ Result<EditedAsset> edit(const SetArguments& options, Report& report,
                          std::vector<AssetEdit>& edits) {
   return repeat_edit(report.diagnostics, [&]() -> Result<EditedAsset> {
     TENON_TRY(edits, read_edits(options.asset, options.request, edit_options(options)));
+    if (edits.empty() && options.request.filter_overlaps) {
+      report.note("no bodies overlap at the start: nothing to filter");
+      return EditedAsset();
+    }
     TENON_TRY(EditedAsset asset,
               edit_asset(options.asset, edits, edit_options(options), report.diagnostics));
     if (!options.dry_run && asset.without_effect.empty()) {
@@ -79,6 +83,7 @@ constexpr const char* kSetFooter =
     "  tenon set hand.usda --mass /hand/palm=0.2 --collider /hand/palm/mesh=convexDecomposition\n"
     "  tenon set hand.usda --drive /hand/Physics/j=stiffness:2 --all-engines\n"
     "  tenon set hand.usda --filter /hand/palm,/hand/thumb\n"
+    "  tenon set hand.usda --filter-overlaps\n"
     "  tenon set hand.usda /hand/palm.physics:filteredPairs-=/hand/thumb\n"
     "  tenon set hand.usda --apply /hand/palm=PhysxRigidBodyAPI\n"
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
@@ -94,8 +99,11 @@ void add_edit_options(const Command& verb, EditRequest& options) {
   verb.add_option("--mimic", options.mimic, "FOLLOWER=LEADER,MULTIPLIER[,OFFSET]").repeatable();
   verb.add_option("--collider", options.collider, "PRIM=APPROXIMATION, or PRIM=on").repeatable();
   verb.add_option("--material", options.material, "PRIM=MATERIAL: physics material").repeatable();
-  verb.add_option("--filter", options.filter, "A,B: these two, and what is below, do not touch")
+  verb.add_option("--filter", options.filter,
+                  "A,B: disable collision between A and B, and all below them")
       .repeatable();
+  verb.add_flag("--filter-overlaps", options.filter_overlaps,
+                "Disable collision between all bodies that overlap at the start");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
 #include "tenon/open_stage.h"
+#include "tenon/physics/read_physics.h"
 #include "tenon/property_value.h"
 #include "tenon/structure/layout.h"
 
@@ -88,11 +89,30 @@ Result<void> add_typed(const std::vector<std::string>& texts, const ReadEdits& r
   return {};
 }
 
+Result<void> add_filters(const std::string& asset, const EditRequest& request,
+                         const EditOptions& options, std::vector<AssetEdit>& edits) {
+  if (request.filter.empty() && !request.filter_overlaps) {
+    return {};
+  }
+  TENON_TRY(const stage::Stage stage, scene_with_physics(asset, options.open));
+  Diagnostics ignored;  // the edit reads it again and reports
+  const scene::PhysicsScene scene = physics::read_physics(stage, {}, ignored);
+  TENON_CHECK(add_typed(
+      request.filter, [&](const std::string& text) { return filter_edits(stage, scene, text); },
+      edits));
+  if (request.filter_overlaps) {
+    for (AssetEdit& edit : overlap_edits(stage, scene)) {
+      edits.push_back(std::move(edit));
+    }
+  }
+  return {};
+}
+
 Result<void> add_typed(const std::string& asset, const EditRequest& request,
                        const EditOptions& options, std::vector<AssetEdit>& edits) {
   TENON_CHECK(add_typed(request.collider, collider_edits, edits));
   TENON_CHECK(add_typed(request.material, material_edits, edits));
-  TENON_CHECK(add_typed(request.filter, filter_edits, edits));
+  TENON_CHECK(add_filters(asset, request, options, edits));
   TENON_CHECK(add_typed(
       request.mimic, [&](const std::string& text) { return mimic_edits(text, options.engine); },
       edits));
@@ -130,7 +150,7 @@ Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRe
     TENON_TRY(edit.object, read_path(text, "property"));
     edits.push_back(std::move(edit));
   }
-  if (edits.empty() && options.engine.empty()) {
+  if (edits.empty() && options.engine.empty() && !request.filter_overlaps) {
     return Error(ErrorCode::Invalid, "nothing to set").with_fix("name a property: PATH.attr=VALUE");
   }
   if (request.all_engines) {

@@ -22,8 +22,9 @@ struct EditRequest {
   std::vector<std::string> drive;
   std::vector<std::string> mimic;
   std::vector<std::string> filter;
-  bool all_engines = false;  ///< what one engine has a form of its own for is edited there, too
-  std::string type;          ///< of attributes that assignments create
+  bool filter_overlaps = false;  ///< every pair of bodies that overlap at the start
+  bool all_engines = false;      ///< what one engine has a form of its own for is edited there, too
+  std::string type;              ///< of attributes that assignments create
 };
 
 /// The edits in a fixed order: schemas are removed and applied first, so that the properties that

@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/check/overlaps.h"
 
 namespace tenon {
 namespace {
@@ -25,17 +27,19 @@ struct Assignment {
   std::string value;
 };
 
-Error bad(const std::string& text, const std::string& fix) {
-  return Error(ErrorCode::Invalid, "\"" + text + "\" does not say what to do")
-      .with_rule("edit.bad-argument")
-      .with_fix(fix);
+Error bad(std::string message, const std::string& fix) {
+  return Error(ErrorCode::Invalid, std::move(message)).with_rule("edit.bad-argument").with_fix(fix);
 }
 
 Result<Assignment> read_prim_assignment(const std::string& text, const std::string& form) {
   const auto parts = split_assignment(text);
-  const auto path = parts ? Path::parse(parts->first) : Result<Path>(Path());
-  if (!parts || !path || !path->is_absolute() || !path->is_prim()) {
-    return bad(text, "write " + form);
+  if (!parts) {
+    return bad("no = in \"" + text + "\"", "write " + form);
+  }
+  const auto path = Path::parse(parts->first);
+  if (!path || !path->is_absolute() || !path->is_prim()) {
+    return bad("\"" + parts->first + "\" is not the path of a prim, which begins with /",
+               "write " + form);
   }
   return Assignment{*path, parts->second};
 }
@@ -66,6 +70,22 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+/// `a` and `b`, and what is below them, do not collide.
+Edits pair_edits(Path a, Path b) {
+  AssetEdit pairs = set(a, "physics:filteredPairs", b.str());
+  pairs.kind = AssetEdit::Kind::AddTargets;
+  return Edits{applied(a, "PhysicsFilteredPairsAPI"), std::move(pairs)};
+}
+
+template <class Names>
+std::string listed(const Names& names) {
+  std::string text;
+  for (const char* name : names) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
 /// The instance of PhysicsDriveAPI that joints of one degree of freedom have; empty for others.
 std::string drive_instance(const stage::Prim& joint) {
   return joint.is_a(Token("PhysicsRevoluteJoint"))    ? "angular"
@@ -80,7 +100,7 @@ Result<Edits> mass_edits(const stage::Stage& stage, const std::string& text) {
             read_prim_assignment(text, "PRIM=KILOGRAMS, as in /hand/palm=0.14"));
   const auto kilograms = parse_double(mass.value);
   if (!kilograms || !(*kilograms > 0)) {
-    return bad(text, "a mass is a number of kilograms above 0");
+    return bad("the mass \"" + mass.value + "\" is not a number above 0", "give kilograms");
   }
   const double unit = stage.metadata(Token("kilogramsPerUnit")).get_or(1.0);
   const double value = unit > 0 ? *kilograms / unit : *kilograms;
@@ -120,15 +140,20 @@ Result<Edits> drive_edits(const stage::Stage& stage, const std::string& text) {
   TENON_TRY(const Assignment drive, read_prim_assignment(plain, form));
   instance = instance.empty() ? drive_instance(stage.prim(drive.prim)) : instance;
   if (instance.empty()) {
-    return bad(text, "name what is driven: " + drive.prim.str() + ":rotX=..., or a joint that is");
+    return bad("<" + drive.prim.str() + "> is neither a revolute nor a prismatic joint",
+               "name one, or the axis to drive: " + drive.prim.str() + ":rotX=...");
   }
   Edits edits{applied(drive.prim, "PhysicsDriveAPI:" + instance)};
   for (const std::string& part : split(drive.value, ',')) {
     const std::size_t at = part.find(':');
     const std::string key = part.substr(0, at);
     const bool known = std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
-    if (at == std::string::npos || !known) {
-      return bad(part, "write " + form);
+    if (at == std::string::npos) {
+      return bad("no : in \"" + part + "\"", "write " + form);
+    }
+    if (!known) {
+      return bad("unknown key \"" + key + "\"",
+                 "a drive takes " + listed(kKeys) + ": write " + form);
     }
     edits.push_back(set(drive.prim, "drive:" + instance + ":physics:" + key, part.substr(at + 1)));
   }
@@ -158,19 +183,64 @@ Result<Edits> mimic_edits(const std::string& text, const std::string& engine) {
                set(mimic.prim, "newton:mimicCoef0", number(*offset))};
 }
 
-Result<Edits> filter_edits(const std::string& text) {
+Path filtered_prim(const stage::Stage& stage, const scene::PhysicsScene& scene, Path path) {
+  if (!stage.prim(path).is_instance_proxy()) {
+    return path;
+  }
+  const auto collider = std::find_if(scene.colliders.begin(), scene.colliders.end(),
+                                     [&](const scene::Collider& c) { return c.path == path; });
+  Path owner = collider != scene.colliders.end() && collider->body
+                   ? scene.bodies[*collider->body].path
+                   : path.parent();
+  while (stage.prim(owner).is_instance_proxy()) {
+    owner = owner.parent();
+  }
+  return owner;
+}
+
+Result<Edits> filter_edits(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                           const std::string& text) {
   const std::vector<std::string> parts = split(text, ',');
   const auto first = Path::parse(parts.front());
   const auto second = Path::parse(parts.back());
   const auto is_prim = [](const Result<Path>& path) {
     return path && path->is_absolute() && path->is_prim();
   };
-  if (parts.size() != 2 || !is_prim(first) || !is_prim(second) || *first == *second) {
-    return bad(text, "write two prims: /hand/palm,/hand/thumb");
+  if (parts.size() != 2 || !is_prim(first) || !is_prim(second)) {
+    return bad("\"" + text + "\" is not two paths of prims", "write /hand/palm,/hand/thumb");
   }
-  AssetEdit pairs = set(*first, "physics:filteredPairs", parts.back());
-  pairs.kind = AssetEdit::Kind::AddTargets;
-  return Edits{applied(*first, "PhysicsFilteredPairsAPI"), std::move(pairs)};
+  const Path a = filtered_prim(stage, scene, *first);
+  const Path b = filtered_prim(stage, scene, *second);
+  if (a == b) {
+    return bad(
+        "both prims of \"" + text + "\" are " + (*first == *second ? "the same" : "of one body"),
+        "name two bodies");
+  }
+  return pair_edits(a, b);
+}
+
+Edits overlap_edits(const stage::Stage& stage, const scene::PhysicsScene& scene) {
+  constexpr std::size_t kMost = 10000;
+  std::set<std::pair<Path, Path>> pairs;
+  for (const auto& [first, second] : check::overlaps_at_start(scene, kMost)) {
+    const auto owner = [&](scene::Index i) {
+      const scene::Collider& collider = scene.colliders[i];
+      const Path path = collider.body ? scene.bodies[*collider.body].path : collider.path;
+      return filtered_prim(stage, scene, path);
+    };
+    const Path a = owner(first);
+    const Path b = owner(second);
+    if (a != b) {
+      pairs.emplace(std::min(a, b), std::max(a, b));
+    }
+  }
+  Edits edits;
+  for (const auto& [a, b] : pairs) {
+    for (AssetEdit& edit : pair_edits(a, b)) {
+      edits.push_back(std::move(edit));
+    }
+  }
+  return edits;
 }
 
 }  // namespace tenon

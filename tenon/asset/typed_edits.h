@@ -7,6 +7,7 @@
 
 #include "tenon/asset/edit_asset.h"
 #include "tenon/base/result.h"
+#include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
 
 /// What people want of physics, as edits of properties and API schemas. `text` is "PRIM=...".
@@ -28,8 +29,15 @@ Result<std::vector<AssetEdit>> drive_edits(const stage::Stage& stage, const std:
 /// PhysxMimicJointAPI, which has the opposite signs.
 Result<std::vector<AssetEdit>> mimic_edits(const std::string& text, const std::string& engine);
 
-/// "A,B": the two and their descendants never collide. A gets PhysicsFilteredPairsAPI with B among
-/// its pairs.
-Result<std::vector<AssetEdit>> filter_edits(const std::string& text);
+/// What filters of `path` are written to: it, or the body of a collider inside an instance, where
+/// nothing can be written.
+Path filtered_prim(const stage::Stage& stage, const scene::PhysicsScene& scene, Path path);
+/// "A,B": disables collision between the two (filtered_prim) and what is below them. A gets
+/// PhysicsFilteredPairsAPI with B among its pairs.
+Result<std::vector<AssetEdit>> filter_edits(const stage::Stage& stage,
+                                            const scene::PhysicsScene& scene,
+                                            const std::string& text);
+/// The same for all pairs of bodies that overlap at the start (check/overlaps.h), each once.
+std::vector<AssetEdit> overlap_edits(const stage::Stage& stage, const scene::PhysicsScene& scene);
 
 }  // namespace tenon

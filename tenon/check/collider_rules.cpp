@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "tenon/check/convex_overlap.h"
+#include "tenon/check/overlaps.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/scene/shapes/mesh_inertia.h"
@@ -137,17 +138,17 @@ bool reach_into(Placed a, Placed b) {
 
 }  // namespace
 
-void check_overlap_at_start(const Subject& subject, Reporter& report) {
-  const scene::PhysicsScene& scene = subject.scene;
+std::vector<std::pair<Index, Index>> overlaps_at_start(const scene::PhysicsScene& scene,
+                                                       std::size_t most) {
   const std::vector<Placed> placed = placed_solids(scene);
+  std::vector<std::pair<Index, Index>> found;
   std::size_t steps = 0;
   std::size_t pairs = 0;
-  std::size_t reports = 0;
-  for (std::size_t i = 0; i < placed.size() && reports < kMaxReports; ++i) {
+  for (std::size_t i = 0; i < placed.size() && found.size() < most; ++i) {
     const Collider& a = scene.colliders[placed[i].collider];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
-      if (pairs >= kMaxPairs || reports >= kMaxReports || ++steps > kMaxSteps) {
-        return;
+      if (pairs >= kMaxPairs || found.size() >= most || ++steps > kMaxSteps) {
+        return found;
       }
       const Collider& b = scene.colliders[placed[j].collider];
       if ((!is_dynamic(scene, a) && !is_dynamic(scene, b)) || !boxes_meet(placed[i], placed[j]) ||
@@ -155,17 +156,24 @@ void check_overlap_at_start(const Subject& subject, Reporter& report) {
         continue;
       }
       ++pairs;
-      if (!reach_into(placed[i], placed[j])) {
-        continue;
+      if (reach_into(placed[i], placed[j])) {
+        const bool in_order = a.path < b.path;
+        found.emplace_back(placed[in_order ? i : j].collider, placed[in_order ? j : i].collider);
       }
-      ++reports;
-      const Collider& first = a.path < b.path ? a : b;
-      const Collider& second = a.path < b.path ? b : a;
-      report.at(subject.stage.prim(first.path),
-                "at the start the collider reaches into <" + second.path.str() +
-                    ">: both are thrown apart",
-                "move them apart, or filter the pair with PhysicsFilteredPairsAPI");
     }
+  }
+  return found;
+}
+
+void check_overlap_at_start(const Subject& subject, Reporter& report) {
+  const scene::PhysicsScene& scene = subject.scene;
+  for (const auto& [a, b] : overlaps_at_start(scene, kMaxReports)) {
+    const Collider& first = scene.colliders[a];
+    const Collider& second = scene.colliders[b];
+    report.at(subject.stage.prim(first.path),
+              "at the start the collider reaches into <" + second.path.str() +
+                  ">: the solver will push them apart violently",
+              "move them apart, or filter all such pairs with `tenon set ASSET --filter-overlaps`");
   }
 }
 
@@ -237,7 +245,7 @@ void check_default_size(const Subject& subject, Reporter& report) {
     for (const auto& [type, size] : kSizes) {
       if (prim.type_name() == type && !prim.attribute(size).has_authored_value()) {
         report.at(prim,
-                  std::string("no ") + size + " is authored; the schema's counts: " +
+                  std::string("no ") + size + " is authored; using the schema default of " +
                       digits(prim.attribute(size).get_as<double>().value_or(0)) + " units",
                   std::string("author ") + size);
       }

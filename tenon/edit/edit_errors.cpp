@@ -49,7 +49,9 @@ Error outside_target(Path path, const std::string& layer) {
 }
 
 Error no_name_in_target(Path path, const std::string& layer) {
-  return Error(ErrorCode::Invalid, "<" + path.str() + "> has no name in this file")
+  return Error(ErrorCode::Invalid, "<" + path.str() +
+                                       "> cannot be named in this file: it comes from another one, "
+                                       "or is inside an instance")
       .in_file(layer)
       .with_rule("edit.outside-target")
       .with_fix("choose an edit target whose arc reaches this path, such as the root layer");

@@ -275,7 +275,7 @@ def Xform "R" (
         self.assertEqual(self.value(f"{COLLIDER}.material:binding:physics"),
                          [f"{link}/Materials/Rubber_Contact"])
         self.original = self.files()
-        self.assertIn("no name in this file",
+        self.assertIn("cannot be named in this file",
                       self.refused("--material", f"{COLLIDER}={R}/elsewhere"))
 
     def test_an_asset_without_the_structure(self):
