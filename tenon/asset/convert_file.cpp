@@ -8,8 +8,10 @@
 
 #include "tenon/asset/mjcf_files.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/files.h"
 #include "tenon/bytes/read_record.h"
+#include "tenon/formats/foreign_format.h"
 #include "tenon/guard/not_a_number.h"
 #include "tenon/guard/workers.h"
 #include "tenon/robot/check_model.h"
@@ -18,41 +20,9 @@
 namespace tenon {
 namespace {
 
-/// Behind the first `end` from `at` on; the size of `text` where there is none.
-std::size_t behind(std::string_view text, std::string_view end, std::size_t at) {
-  const std::size_t found = text.find(end, at);
-  return found == std::string_view::npos ? text.size() : found + end.size();
-}
-
-/// Behind a document type, whose own declarations are in brackets.
-std::size_t behind_document_type(std::string_view text, std::size_t at) {
-  const std::size_t open = text.find_first_of("[>", at);
-  const bool has_declarations = open != std::string_view::npos && text[open] == '[';
-  return behind(text, ">", has_declarations ? behind(text, "]", open) : at);
-}
-
-/// The name of the root element; empty where the text is no XML.
-std::string_view root_element(std::string_view text) {
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  for (;;) {
-    at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-    const std::string_view rest = text.substr(at);
-    if (rest.starts_with("<!--")) {
-      at = behind(text, "-->", at + 4);
-    } else if (rest.starts_with("<?")) {
-      at = behind(text, "?>", at);
-    } else if (rest.starts_with("<!")) {
-      at = behind_document_type(text, at);
-    } else {
-      return rest.starts_with('<') ? rest.substr(1, rest.find_first_of(" \t\r\n/>") - 1)
-                                   : std::string_view();
-    }
-  }
-}
-
 /// Told by the root element: a URDF may hold <mujoco> too, further down or in a comment.
 bool is_mjcf(std::string_view text) {
-  const std::string_view root = root_element(text);
+  const std::string_view root = formats::xml_root_element(text);
   return root == "mujoco" || root == "mujocoinclude";
 }
 
@@ -80,10 +50,27 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& 
   return model;
 }
 
+/// Meshes and SDF are no descriptions that are read.
+Result<void> check_is_robot(std::string_view contents, const std::string& path) {
+  using formats::ForeignFormat;
+  const ForeignFormat format = formats::foreign_format(contents);
+  if (format == ForeignFormat::None || format == ForeignFormat::Urdf ||
+      format == ForeignFormat::Xacro || format == ForeignFormat::Mjcf) {
+    return {};
+  }
+  return Error(ErrorCode::Unsupported, "this is " +
+                                           std::string(formats::foreign_format_name(format)) +
+                                           ", not a robot description")
+      .in_file(path)
+      .with_rule("convert.format")
+      .with_fix(formats::foreign_format_advice(format, shown_path(path)));
+}
+
 Result<robot::RobotModel> read_model(const std::string& path, const ConvertFileOptions& options,
                                      bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
   TENON_TRY(const auto bytes,
             policy.is_closed() ? policy.open(path) : policy.files()->open(path, {}));
+  TENON_CHECK(check_is_robot(bytes->text(), path));
   if (!is_mjcf(bytes->text())) {
     return urdf::read_urdf_text(bytes->text(), path,
                                 {options.packages, options.open.search_paths, policy}, diagnostics);

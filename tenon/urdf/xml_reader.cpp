@@ -50,7 +50,8 @@ Result<pugi::xml_node> XmlReader::parse() {
 
 Error XmlReader::broken(std::size_t offset, const std::string& why) const {
   const std::size_t line = line_at(offset);
-  return Error(ErrorCode::Parse, "the XML is broken: " + why)
+  return Error(ErrorCode::Parse,
+               "neither URDF nor MJCF can be read from this, it is not valid XML: " + why)
       .in_file(file_)
       .at(static_cast<std::uint32_t>(line),
           static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))

@@ -24,6 +24,8 @@ class Cursor : public TextCursor {
  public:
   Cursor(std::string_view text, std::string_view file) : TextCursor(text), file_(file) {}
 
+  std::string_view file() const { return file_; }
+
   /// Takes `c` or fails with "expected 'c' `where`".
   bool expect(char c, std::string_view where);
 

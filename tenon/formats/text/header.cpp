@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cstring>
 
+#include "tenon/base/text/shown_path.h"
 #include "tenon/base/text/unicode.h"
+#include "tenon/formats/foreign_format.h"
 
 namespace tenon::formats::text {
 namespace {
@@ -88,14 +90,21 @@ bool parse_version(std::string_view text, unsigned& major, unsigned& minor) {
 
 bool read_header(LayerState& state) {
   Cursor& cursor = state.cursor;
+  const std::string_view text = cursor.text();
+  if (const ForeignFormat foreign = foreign_format(text); foreign != ForeignFormat::None) {
+    return cursor.fail_at(0, ErrorCode::Parse, "text.header",
+                          "this is " + std::string(foreign_format_name(foreign)) + ", not USD",
+                          foreign_format_advice(foreign, shown_path(std::string(cursor.file()))));
+  }
   if (!check_encoding(cursor)) {
     return false;
   }
-  const std::string_view text = cursor.text();
   if (!cursor.starts_with("#usda ")) {
-    return cursor.fail_at(0, ErrorCode::Parse, "text.header",
-                          "this is not a text layer: the first line must be `#usda 1.0`",
-                          "add the line `#usda 1.0` at the top");
+    return cursor.fail_at(
+        0, ErrorCode::Parse, "text.header",
+        "this is not USD: the first line of a text layer must be `#usda 1.0`",
+        "name a USD, URDF or MJCF file, or add that line at the top where it is a "
+        "text layer without it");
   }
   const std::string_view line = text.substr(0, text.find('\n'));
   const std::size_t start = line.find_first_not_of(" \t", 5);
