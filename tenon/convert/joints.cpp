@@ -139,14 +139,19 @@ Path write_joint(const Source& source, const LinkPrims& links, const robot::Join
   return path;
 }
 
-/// Robots whose root is called so stand somewhere, unless a joint says that they do not.
-bool stands_by_its_name(const Source& source) {
-  const robot::RobotModel& model = source.model;
-  const std::string& name = model.links[source.tree.root].name;
-  const bool moves = std::any_of(model.joints.begin(), model.joints.end(), [](const auto& joint) {
+/// Nothing says that the root moves: neither a joint nor whoever converts.
+bool may_stand(const Source& source) {
+  const std::vector<robot::Joint>& joints = source.model.joints;
+  const bool moves = std::any_of(joints.begin(), joints.end(), [](const auto& joint) {
     return joint.kind == JointKind::Floating || joint.kind == JointKind::Planar;
   });
-  return !source.options.float_base && !moves && (name == "world" || name == "base_link");
+  return !source.options.float_base && !moves;
+}
+
+/// Robots whose root is called so stand somewhere, unless a joint says that they do not.
+bool stands_by_its_name(const Source& source) {
+  const std::string& name = source.model.links[source.tree.root].name;
+  return may_stand(source) && (name == "world" || name == "base_link");
 }
 
 Path write_fixed_base(Path root, PhysicsScope& physics) {
@@ -188,6 +193,13 @@ JointPrims write_joints(const Source& source, const LinkPrims& links, PhysicsSco
           "the root \"" + link.name + "\" is held in the world, as its name says",
           "convert with --float-base where the robot is free to move");
     }
+  }
+  if (root.role == LinkRole::Body && !prims.base && may_stand(source)) {
+    physics.layer().report(source.model.links[source.tree.root].place, Severity::Info,
+                           "convert.free-root",
+                           "the root \"" + source.model.links[source.tree.root].name +
+                               "\" is free to move: it falls unless something holds it",
+                           "convert with --fix-base to hold it in the world");
   }
   for (const robot::Joint& joint : joints) {
     prims.joints.push_back(write_joint(source, links, joint, physics));

@@ -7,6 +7,7 @@
 // zero, count as no limit and are reported.
 #include <cmath>
 
+#include "tenon/urdf/plain_urdf.h"
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {
@@ -151,8 +152,11 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
                   "\" is treated as unlimited",
               "give the limit, or leave the attribute out");
   }
-  joint.effort_limit = effort == 0 ? robot::kUnlimited : effort;
-  joint.velocity_limit = velocity == 0 ? robot::kUnlimited : velocity;
+  const auto limit_of = [](double value) {
+    return value == 0 || value >= kNoUrdfLimit ? robot::kUnlimited : value;
+  };
+  joint.effort_limit = limit_of(effort);
+  joint.velocity_limit = limit_of(velocity);
   return {};
 }
 

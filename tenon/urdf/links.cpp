@@ -186,17 +186,4 @@ robot::Index UrdfReader::mesh_number(const std::string& written, pugi::xml_node 
   return at->second;
 }
 
-void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node element) {
-  const auto refusal = refusals_.find(written);
-  if (refusal == refusals_.end()) {
-    xml_.warn(element, "urdf.mesh-missing",
-              "the mesh \"" + written + "\" cannot be found; the shape is skipped",
-              paths_.advice(written), Severity::Error);
-  } else {
-    const Diagnostic& why = refusal->second.diagnostic();
-    xml_.warn(element, why.rule.c_str(), "the mesh " + why.message + "; the shape is skipped",
-              why.fix, Severity::Error);
-  }
-}
-
 }  // namespace tenon::urdf

@@ -7,6 +7,10 @@
 
 namespace tenon::urdf {
 
+/// What stands for "no limit" where URDF wants a number: readers take 0 as it is written.
+/// In N, N m, m/s or rad/s; what is read back from there on is no limit.
+inline constexpr double kNoUrdfLimit = 1e9;
+
 /// Puts what every reader of URDF knows in the place of what only some do, and says so: a capsule
 /// becomes a cylinder and two spheres, which together are it; a ball becomes three hinges on links
 /// of almost no mass; a slide or hinge of a range without an end gets one far away. Parts that

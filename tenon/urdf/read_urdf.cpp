@@ -84,6 +84,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
   for (const pugi::xml_node child : robot.children("link")) {
     TENON_CHECK(read_link(child));
   }
+  report_missing_meshes();
   for (const pugi::xml_node child : robot.children("joint")) {
     TENON_CHECK(read_joint(child));
   }

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "tenon/robot/robot_model.h"
 #include "tenon/urdf/mesh_paths.h"
@@ -33,8 +34,12 @@ class UrdfReader {
   /// None for a mesh that cannot be found and for unknown shapes, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
   Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
-  void report_missing_mesh(const std::string& written, pugi::xml_node element);
   robot::Index mesh_number(const std::string& written, pugi::xml_node element);
+
+  // missing_meshes.cpp
+  void report_missing_mesh(const std::string& written, pugi::xml_node element);
+  /// After all links.
+  void report_missing_meshes();
 
   // materials.cpp
   void find_material_definitions(pugi::xml_node robot);
@@ -56,6 +61,14 @@ class UrdfReader {
   // sensors.cpp, after what Gazebo says
   void read_sensor(pugi::xml_node element);
 
+  struct MissingMesh {
+    pugi::xml_node element;
+    std::string written;
+    std::string rule;
+    std::string message;
+    std::string advice;
+  };
+
   XmlReader& xml_;
   MeshPaths paths_;
   robot::RobotModel model_;
@@ -65,6 +78,7 @@ class UrdfReader {
   std::unordered_map<std::string, robot::Index> material_numbers_;  // by all that they say
   std::unordered_map<std::string, robot::Index> first_material_;    // by name
   std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
+  std::vector<MissingMesh> missing_meshes_;
   std::unordered_map<std::string, Error> refusals_;  // of meshes, by the written name
   std::size_t rays_ = 0;                             // of laser scanners
   std::vector<pugi::xml_node> joint_elements_;       // (joint_count)

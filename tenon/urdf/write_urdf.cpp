@@ -8,6 +8,7 @@
 // written in the axes of its link.
 #include "tenon/urdf/write_urdf.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -17,6 +18,7 @@
 
 #include "tenon/base/text/source_number.h"
 #include "tenon/base/text/xml_text.h"
+#include "tenon/urdf/plain_urdf.h"
 
 namespace tenon::urdf {
 
@@ -190,11 +192,11 @@ class UrdfWriter {
     out_.close("link");
   }
 
-  /// Readers require effort and velocity wherever there is a limit; 0 means none.
+  /// Readers ask for effort and velocity wherever there is a limit, and take 0 as it is written.
   void write_limit(const robot::Joint& joint) {
-    const auto or_zero = [](double value) { return text_of({std::isfinite(value) ? value : 0}); };
-    const std::string effort = or_zero(joint.effort_limit);
-    const std::string velocity = or_zero(joint.velocity_limit);
+    const auto finite = [](double value) { return text_of({std::min(value, kNoUrdfLimit)}); };
+    const std::string effort = finite(joint.effort_limit);
+    const std::string velocity = finite(joint.velocity_limit);
     if (joint.limit) {
       out_.empty("limit", {{"lower", text_of({joint.limit->lower})},
                            {"upper", text_of({joint.limit->upper})},
