@@ -141,6 +141,7 @@ class Packer {
       pending_.pop_front();
       TENON_CHECK(add_file(next));
     }
+    report_foreign();
     return write();
   }
 
@@ -159,12 +160,22 @@ class Packer {
              "is outside of the package's folder and is packed as " + file.name, "");
     }
     if (!is_layer_name(file.name) && !is_media_name(file.name)) {
-      report(Severity::Warning, "package.file-type", file,
-             "is packed, but is of no type that packages are specified to hold; what it names "
-             "itself is not packed",
-             "give the asset layers, and images as png, jpeg, exr or avif");
+      foreign_[std::filesystem::path(file.name).extension().string()].push_back(file);
     }
     files_.emplace_back(file.name, std::move(contents));
+  }
+
+  /// One finding for all files of a type.
+  void report_foreign() {
+    for (const auto& [type, files] : foreign_) {
+      const std::size_t more = files.size() - 1;
+      report(Severity::Warning, "package.file-type", files.front(),
+             (more == 0 ? std::string("is")
+                        : "and " + std::to_string(more) + " more of type " + type + " are") +
+                 " packed, but packages are specified to hold layers and images alone; what such "
+                 "files name themselves is not packed",
+             "share the folder instead where a reader refuses the package");
+    }
   }
 
   void report(Severity severity, const char* rule, const Pending& file, const std::string& what,
@@ -453,7 +464,8 @@ class Packer {
   std::deque<Pending> pending_;
   std::vector<std::pair<std::string, std::shared_ptr<const bytes::FileBytes>>> files_;
   std::vector<PackedFile> packed_;
-  std::vector<Error> refusals_;  // of the asset path at hand
+  std::map<std::string, std::vector<Pending>> foreign_;  // by ending: what packages need not hold
+  std::vector<Error> refusals_;                          // of the asset path at hand
 };
 
 }  // namespace
