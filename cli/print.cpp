@@ -85,8 +85,9 @@ void print_colored(std::string_view text) {
 
 void say_aside(std::string_view line) {
   clear_for_print();
-  std::fwrite(line.data(), 1, line.size(), stderr);
-  std::fputc('\n', stderr);
+  flush_prints();  // so that lines of both streams stay whole and in order in one log
+  const std::string whole = std::string(line) + '\n';
+  std::fwrite(whole.data(), 1, whole.size(), stderr);
 }
 
 bool stdout_is_terminal() { return isatty(STDOUT_FILENO) != 0; }

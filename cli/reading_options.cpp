@@ -9,7 +9,9 @@
 namespace tenon::cli {
 
 void add_readings(const Command& verb, std::vector<std::string>& assignments) {
-  verb.add_option("--reading", assignments, "NAME=VALUE of those below; may be repeated")
+  verb.add_option("--reading", assignments,
+                  "NAME=VALUE: how to read what UsdPhysics leaves open; `tenon help physics` lists "
+                  "the names")
       .repeatable();
 }
 

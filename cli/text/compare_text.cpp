@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/text/text_table.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/motions/gaps.h"
 #include "tenon/motions/reasons.h"
@@ -107,16 +108,16 @@ std::string reasons_text(const Json& pair) {
   }
   const std::size_t untried = pair["untried"].get<std::size_t>();
   std::string text = pair["reasons"].empty()
-                         ? "no single cause makes up 5 % of it"
+                         ? "no single setting explains more than 5 % of the gap"
                          : "differs because (share of the mean distance up to " +
                                rounded_text(pair["until"].get<double>(), 4) + " s)";
-  text += untried > 0 ? "; " + std::to_string(untried) + " causes were not tried\n" : "\n";
+  text += untried > 0 ? "; " + counted(untried, "cause") + " not tried\n" : "\n";
   for (const Json& reason : pair["reasons"]) {
     text += reason_text(reason);
   }
   if (!pair["together"].is_null()) {
-    text += "  without all of these " +
-            rounded_text((1 - pair["together"].get<double>()) * 100, 3) + " % of it is left\n";
+    text += "  these causes explain " + rounded_text(pair["together"].get<double>() * 100, 4) +
+            " % of the gap\n";
   }
   return text;
 }

@@ -13,6 +13,7 @@
 
 #include "tenon/answers/difference_json.h"
 #include "tenon/answers/list_item_text.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
 #include "tenon/math/angle.h"
@@ -182,7 +183,7 @@ std::string difference_text(const diff::Difference& difference) {
     text += value.empty() ? "" : ": " + value;
     return difference.count == 1
                ? text
-               : text + ", with " + std::to_string(difference.count - 1) + " specs below";
+               : text + ", with " + counted(difference.count - 1, "spec") + " below";
   }
   const bool order = difference.field == layer::fields::primChildren;
   const bool value = difference.field == layer::fields::default_value;
@@ -197,7 +198,11 @@ std::string difference_text(const scene::SceneDifference& difference) {
       std::string(mark_of(difference.change)) + " " + difference.object + " " + difference.path;
   const bool added = difference.change == Change::Added;
   if (difference.object == "pair") {
-    return text + (added ? "  is kept apart" : "  may touch");
+    return text + (added ? "  do not collide" : "  may collide");
+  }
+  if (difference.object == "pair for good") {
+    return std::string(mark_of(difference.change)) + " " + difference.path +
+           (added ? "  never collide (always filtered)" : "  are not always filtered any more");
   }
   if (difference.before.name.empty() && difference.after.name.empty()) {
     return text + (added ? "  added" : "  removed");

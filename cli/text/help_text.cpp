@@ -54,6 +54,10 @@ std::string example(std::string_view line, std::size_t width) {
     return wrapped(line, width, start + 4);
   }
   const std::size_t words = line.find_first_not_of(' ', gap);
+  if (words <= kNameColumn && words + kMinWords <= width) {  // a row of a table
+    const std::string all = std::string(words, ' ') + std::string(line.substr(words));
+    return std::string(line.substr(0, words)) + wrapped(all, width, words).substr(words);
+  }
   const std::string indent(start + 4, ' ');
   return wrapped(line.substr(0, gap), width, start + 4) + "\n" +
          wrapped(indent + std::string(line.substr(words)), width, start + 4);

@@ -7,6 +7,7 @@
 #include "cli/verb.h"
 #include "tenon/asset/simulating/simulated_json.h"
 #include "tenon/asset/viewing/view_asset.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -67,8 +68,8 @@ int run_bake(const Globals& globals, const BakeArguments& options) {
   const std::size_t frames = simulated->run.recording.frame_count();
   const std::size_t bodies = simulated->scene->bodies.size();
   if (options.output != "-") {
-    report.note(shown_path(options.output) + ": " + std::to_string(frames) + " frames of " +
-                std::to_string(bodies) + " bodies");
+    report.note(shown_path(options.output) + ": " + counted(frames, "frame") + " of " +
+                counted(bodies, "body", "bodies"));
   }
   return report.finish(exit_code_of(*simulated), motion_json(*simulated, options.output));
 }

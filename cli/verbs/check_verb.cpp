@@ -256,8 +256,7 @@ constexpr const char* kCheckFooter =
 }  // namespace
 
 void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb =
-      parent.add_subcommand("check", "What is wrong with assets, and how to correct it");
+  const Command verb = parent.add_subcommand("check", "Validate assets and suggest fixes");
   auto options = std::make_shared<CheckArguments>();
   verb.add_option("assets", options->paths, "USD files or folders").file_only();
   options->asset.add_options_to(verb);

@@ -25,6 +25,7 @@
 #include "tenon/asset/updating/updated_json.h"
 #include "tenon/asset_policy.h"
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/structure/written_note.h"
@@ -125,6 +126,7 @@ bool ends_in(const std::string& path, std::initializer_list<const char*> endings
 
 struct Conversion {
   RobotCounts counts;
+  std::string opens;  ///< the file that opens the asset
   std::optional<UpdateOutcome> updated;
 };
 
@@ -153,9 +155,11 @@ Result<Conversion> convert_and_write(const ConvertArguments& options, Diagnostic
   TENON_TRY(ConvertedFile converted, convert_file(options.input, wanted, diagnostics));
   Conversion done;
   done.counts = counts_of(converted);
+  done.opens = options.output;
   if (folder) {
     TENON_TRY(const structure::StructuredAsset asset,
               structured_robot(converted, diagnostics, structure_options(options)));
+    done.opens = (fs::path(options.output) / asset.package.interface).string();
     if (updates) {
       TENON_TRY(done.updated,
                 update(asset.package, options.output, options.update, false, diagnostics));
@@ -184,10 +188,21 @@ OpenOptions open_options(const ConvertArguments& options) {
   return open;
 }
 
-void note_counts(const Report& report, const std::string& output, std::size_t links,
-                 std::size_t joints, std::size_t meshes) {
-  report.note("wrote " + shown_path(output) + ": " + std::to_string(links) + " links, " +
-              std::to_string(joints) + " joints, " + std::to_string(meshes) + " mesh files");
+/// `opens` is the file to open, where `output` is a folder.
+void note_counts(const Report& report, const std::string& opens, const std::string& links,
+                 std::size_t joints, const std::string& beside) {
+  report.note("wrote " + shown_path(opens) + ": " + links + ", " + counted(joints, "joint") + ", " +
+              beside);
+}
+
+/// A robot that falls when it is simulated is told once, where nobody asked for it.
+void note_free_root(const Report& report, const ConvertArguments& options) {
+  const auto found =
+      std::find_if(report.diagnostics.begin(), report.diagnostics.end(),
+                   [](const Diagnostic& d) { return d.rule == "convert.free-root"; });
+  if (found != report.diagnostics.end() && !options.float_base && !report.verbose()) {
+    report.note(found->message + " (--fix-base holds it in the world)");
+  }
 }
 
 /// The other way: an asset as a robot's description.
@@ -205,10 +220,10 @@ int run_export(Report& report, const ConvertArguments& options, DescriptionForma
     return report.fail(written.error());
   }
   const bool urdf = format == DescriptionFormat::Urdf;
-  if (urdf) {
-    note_counts(report, options.output, description->links, description->joints,
-                description->files_beside);
-  }
+  note_counts(
+      report, options.output,
+      urdf ? counted(description->links, "link") : counted(description->links, "body", "bodies"),
+      description->joints, counted(description->files_beside, urdf ? "mesh file" : "image"));
   return report.finish(!urdf && left_out(report.diagnostics) ? kNo : kOk,
                        description_json(*description, options.output));
 }
@@ -225,9 +240,10 @@ int run_conversion(Report& report, const ConvertArguments& options) {
     code = std::max(code, tell_update(report, *converted->updated, options.update, options.output));
     body = with_updated(std::move(body), converted->updated->asset, options.update.keep());
   } else {
-    note_counts(report, options.output, converted->counts.links, converted->counts.joints,
-                converted->counts.meshes);
+    note_counts(report, converted->opens, counted(converted->counts.links, "link"),
+                converted->counts.joints, counted(converted->counts.meshes, "mesh file"));
   }
+  note_free_root(report, options);
   return report.finish(code, std::move(body));
 }
 

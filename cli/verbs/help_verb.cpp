@@ -76,8 +76,7 @@ void add_manual(const Command& parent, const Globals& globals, Chosen& chosen) {
 }
 
 void add_completion(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb = parent.add_subcommand(
-      "completion", "Print what lets a shell complete verbs, options and their values");
+  const Command verb = parent.add_subcommand("completion", "Print a shell completion script");
   auto shell = std::make_shared<std::string>();
   verb.add_option("shell", *shell, "bash, zsh or fish").one_of({"bash", "zsh", "fish"}).required();
   verb.footer(

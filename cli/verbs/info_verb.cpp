@@ -8,6 +8,7 @@
 #include "cli/verb.h"
 #include "tenon/answers/info_json.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
 
@@ -19,8 +20,8 @@ void print_stage(const Json& stage) {
   print("units          %g m, %g kg, up %s, %g time codes per second\n",
         stage["metersPerUnit"].get<double>(), stage["kilogramsPerUnit"].get<double>(),
         stage["upAxis"].get<std::string>().c_str(), stage["timeCodesPerSecond"].get<double>());
-  print("prims          %zu in %zu layers\n", stage["primCount"].get<std::size_t>(),
-        stage["layers"].size());
+  print("prims          %zu in %s\n", stage["primCount"].get<std::size_t>(),
+        counted(stage["layers"].size(), "layer").c_str());
   for (const auto& layer : stage["layers"]) {
     print("  %s\n", layer.get<std::string>().c_str());
   }
@@ -40,10 +41,12 @@ void print_variants_of(const Json& variants) {
 }
 
 void print_physics(const Json& p) {
-  print("physics        %zu scenes, %zu bodies (%zu kinematic), %.6g kg, %zu articulations\n",
-        p["scenes"].get<std::size_t>(), p["bodies"].get<std::size_t>(),
-        p["kinematicBodies"].get<std::size_t>(), p["mass_kg"].get<double>(),
-        p["articulations"].get<std::size_t>());
+  const auto count_of = [&p](const char* key, const char* one, const char* many = "") {
+    return counted(p[key].get<std::size_t>(), one, many);
+  };
+  print("physics        %s, %s (%zu kinematic), %.6g kg, %s\n", count_of("scenes", "scene").c_str(),
+        count_of("bodies", "body", "bodies").c_str(), p["kinematicBodies"].get<std::size_t>(),
+        p["mass_kg"].get<double>(), count_of("articulations", "articulation").c_str());
   std::string joints;
   for (const auto& [kind, count] : p["joints"].items()) {
     if (count.get<std::size_t>() != 0) {
@@ -52,9 +55,10 @@ void print_physics(const Json& p) {
     }
   }
   print("joints         %s\n", joints.empty() ? "none" : joints.c_str());
-  print("               %zu degrees of freedom, %zu drives, %zu limits, %zu mimics\n",
-        p["dofs"].get<std::size_t>(), p["drives"].get<std::size_t>(),
-        p["limits"].get<std::size_t>(), p["mimics"].get<std::size_t>());
+  print("               %s, %s, %s, %s\n",
+        count_of("dofs", "degree of freedom", "degrees of freedom").c_str(),
+        count_of("drives", "drive").c_str(), count_of("limits", "limit").c_str(),
+        count_of("mimics", "mimic").c_str());
   print("colliders      %zu (%zu static)\n", p["colliders"].get<std::size_t>(),
         p["staticColliders"].get<std::size_t>());
 }

@@ -13,6 +13,7 @@
 #include "tenon/asset/missing_input.h"
 #include "tenon/asset/repeat_edit.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -47,10 +48,10 @@ void note_stripped(const StrippedAsset& asset, std::size_t files, const Report& 
   for (const std::string& file : asset.without_layout) {
     report.note("comments and layout of " + shown_path(file) + " are not kept");
   }
-  report.note("took out " + std::to_string(asset.counts.prims) + " prims, " +
-              std::to_string(asset.counts.api_schemas) + " API schemas, " +
-              std::to_string(asset.counts.properties) + " properties; wrote " +
-              std::to_string(files) + (files == 1 ? " layer" : " layers"));
+  report.note("took out " + counted(asset.counts.prims, "prim") + ", " +
+              counted(asset.counts.api_schemas, "API schema") + ", " +
+              counted(asset.counts.properties, "property", "properties") + "; wrote " +
+              counted(files, "layer"));
 }
 
 Result<StrippedAsset> strip(const StripArguments& options, Report& report) {
@@ -95,9 +96,8 @@ int run_mute(Report& report, const StripArguments& options) {
   if (!counts) {
     return report.fail(counts.error());
   }
-  report.note("switched off " + std::to_string(counts->bodies) + " bodies, " +
-              std::to_string(counts->colliders) + " colliders, " + std::to_string(counts->joints) +
-              " joints");
+  report.note("switched off " + counted(counts->bodies, "body", "bodies") + ", " +
+              counted(counts->colliders, "collider") + ", " + counted(counts->joints, "joint"));
   return report.finish(counts->out_of_reach == 0 ? kOk : kNo, muted_json(*counts));
 }
 

@@ -136,7 +136,7 @@ void tell_address(const Report& report, const serve::Server& server) {
   }
   const std::string port = std::to_string(server.port());
   if (server.is_local()) {
-    report.note("only this machine can open it; from another one: ssh -L " + port +
+    report.note("serving on localhost only; from another machine: ssh -L " + port +
                 ":127.0.0.1:" + port + " THIS_MACHINE, then open the same address there");
   } else {
     report.note(

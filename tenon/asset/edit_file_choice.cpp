@@ -9,6 +9,8 @@
 // the owner.
 #include "tenon/asset/edit_file_choice.h"
 
+#include <filesystem>
+
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
@@ -169,6 +171,14 @@ Result<FileChoice> engine_file(const FileQuestion& q) {
                  "its variants of \"Physics\" are those that tenon variant lists");
 }
 
+std::string file_name(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+std::string owns(const std::string& file, const AssetEdit& edit) {
+  return "written to " + file_name(file) + ", which owns " + subject(edit);
+}
+
 /// The first of the owners, or else of the files that may hold it, that has a place for the path.
 Result<FileChoice> file_of_prim(const FileQuestion& q, const structure::Ownership& owner) {
   std::vector<Role> roles{owner.owner};
@@ -180,8 +190,7 @@ Result<FileChoice> file_of_prim(const FileQuestion& q, const structure::Ownershi
   for (const Role role : roles) {
     for (const std::string& file : files_with(q, role)) {
       if (site_for(q.stage, q.edit, file)) {
-        return FileChoice{file, std::string(structure::role_name(role)) + " is where " +
-                                    subject(q.edit) + " belongs"};
+        return FileChoice{file, owns(file, q.edit)};
       }
     }
   }
@@ -193,29 +202,26 @@ Result<FileChoice> file_of_prim(const FileQuestion& q, const structure::Ownershi
 Result<FileChoice> owning_file(const FileQuestion& q) {
   const structure::Ownership owner = ownership(q);
   const Role role = structure::file_for(owner.owner, q.prim.is_instance_proxy());
-  const auto why = [&](Role of) {
-    return std::string(structure::role_name(of)) + " is where " + subject(q.edit) + " belongs";
-  };
   // A neighbour of the owner that speaks already, such as the base for the shapes in it.
   for (const std::string& layer : speaking(q)) {
     const auto at = q.roles.find(layer);
     const bool for_all =
         at != q.roles.end() && !structure::is_engine(at->second) && at->second != Role::Variant;
     if (for_all && owner.may_be_in(at->second)) {
-      return FileChoice{layer, std::string(structure::role_name(at->second)) + " has " +
-                                   subject(q.edit) + " already"};
+      return FileChoice{layer, file_name(layer) + " already sets " + subject(q.edit)};
     }
   }
   if (q.edit.is_about_prim()) {
     return file_of_prim(q, owner);
   }
   for (const std::string& file : files_with(q, role)) {
-    return FileChoice{
-        file, q.prim.is_instance_proxy() ? why(role) + ": the prim is in an instance" : why(role)};
+    const std::string why = owns(file, q.edit);
+    return FileChoice{file,
+                      q.prim.is_instance_proxy() ? why + ": the prim is in an instance" : why};
   }
   return no_file(q,
                  "the asset has no file for " + std::string(structure::role_name(role)) +
-                     ", where " + subject(q.edit) + " belongs",
+                     ", which owns " + subject(q.edit),
                  "name the file with --in");
 }
 

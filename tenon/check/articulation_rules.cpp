@@ -90,7 +90,7 @@ void check_articulation_passive(const Subject& subject, Reporter& report) {
     }
     if (moving > 0 && !driven) {
       report.at(subject.stage.prim(articulation.path),
-                "no joint of the articulation is driven: it only hangs and swings",
+                "no joint is actuated: no joint of the articulation has a drive",
                 "apply PhysicsDriveAPI with gains to the joints that have motors");
     }
   }

@@ -68,14 +68,6 @@ void place_in_file(const stage::Stage& stage, Diagnostic& d) {
   }
 }
 
-/// An asset that is made to be referenced leaves the PhysicsScene to the scene that uses it.
-bool is_part(const stage::Stage& stage) {
-  const stage::Prim prim = stage.default_prim();
-  const std::vector<std::string> sets = prim.variant_set_names();
-  return prim.has_authored_metadata("kind") ||
-         std::find(sets.begin(), sets.end(), "Physics") != sets.end();
-}
-
 auto order_of(const Finding& finding) {
   const Diagnostic& d = finding.diagnostic;
   return std::tie(d.file, d.line, d.column, d.prim, d.property, d.rule, d.message);
@@ -109,16 +101,12 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
       rule.check(subject, report);
     }
   }
-  const bool part = is_part(stage);
   std::set<decltype(place_key(found.front()))> seen;
   std::vector<Finding> findings;
   for (Diagnostic& diagnostic : found) {
     place_in_file(stage, diagnostic);
     if (!selection.takes(diagnostic.rule) || !seen.insert(place_key(diagnostic)).second) {
       continue;
-    }
-    if (part && diagnostic.rule == "scene.missing") {
-      diagnostic.severity = Severity::Info;
     }
     Finding finding;
     finding.rule = find_rule(diagnostic.rule);

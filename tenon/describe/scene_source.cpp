@@ -33,8 +33,7 @@ void SceneSource::left_out(Path prim, const std::string& why) {
   Diagnostic finding;
   finding.severity = Severity::Warning;
   finding.rule = is_mjcf() ? "mjcf.left-out" : "urdf.left-out";
-  finding.message =
-      why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " cannot express; it is left out";
+  finding.message = why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " does not support; dropped";
   finding.prim = prim.str();
   diagnostics_.add(std::move(finding));
 }

@@ -134,9 +134,9 @@ void add_implicit_scene(ReadState& state) {
   state.scene.scenes.push_back(made_up);
   for (const PhysicsPrim& found : state.walk.prims) {
     if (found.is_body) {
-      state.report(found.prim, Severity::Warning, "scene.missing",
+      state.report(found.prim, Severity::Info, "scene.missing",
                    "there are bodies but no PhysicsScene; earth gravity is assumed",
-                   "add a PhysicsScene prim");
+                   "add a PhysicsScene prim where the asset is not part of another scene");
       return;
     }
   }

@@ -144,7 +144,7 @@ class Command(unittest.TestCase):
                 self.assertEqual(process.returncode, 2, verb["name"])
                 self.assertIn("is given", process.stderr, verb["name"])
                 self.assertIn("--help", process.stderr, verb["name"])
-        self.usage_error(["tree"], "no asset is given")
+        self.usage_error(["tree"], "missing ASSET")
         self.usage_error(["explain", "no-rule"], "explain")
         self.usage_error(["cat", "a.usda", "b.usda"], '"b.usda" is one argument too many')
         self.usage_error(["info", HAND, "--physics"], "--physics needs a value")
@@ -250,7 +250,7 @@ class Command(unittest.TestCase):
             # The value is wrong for most; that the asset is not missing is the point.
             end = ["--for", "0"] if words[0] == "view" else []  # it would serve on
             process = tenon(*words, option["names"][-1], "x", self.scene, *end)
-            self.assertNotIn("no asset is given", process.stderr, (words, option["names"]))
+            self.assertNotIn("missing ASSET", process.stderr, (words, option["names"]))
         self.assertEqual(tenon("check", "--only", "mass", self.scene).returncode, 0)
         self.assertIn("ball", tenon("tree", "--mask", "/World", self.scene).stdout)
         self.assertIn("ball", tenon("tree", "--mask", "/World,/Other", self.scene).stdout)

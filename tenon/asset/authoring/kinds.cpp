@@ -254,8 +254,7 @@ std::vector<Kind> all_kinds() {
 std::vector<AuthoringOption> prim_options() {
   return {
       {"at", "X,Y,Z", "units of length",
-       "Where it stands, below its parent; of joints the point, "
-       "in the world, where the bodies meet"},
+       "Position relative to the parent; of joints the point in the world where the bodies meet"},
       {"rotate", "X,Y,Z", "degrees", "Rotation about X, then Y, then Z; or a quaternion W,X,Y,Z"},
       {"scale", "X,Y,Z", "", "Scaled along its axes"},
       {"size", "NUMBER", "units of length", "Edge of a cube"},
@@ -294,8 +293,8 @@ std::vector<AuthoringOption> joint_options() {
       {"cone1", "NUMBER", "degrees", "The same about the next axis"},
       {"min", "NUMBER", "units of length", "Least distance"},
       {"max", "NUMBER", "units of length", "Greatest distance"},
-      {"break-force", "NUMBER", "units of force", "At which the joint breaks"},
-      {"break-torque", "NUMBER", "units of torque", "At which the joint breaks"},
+      {"break-force", "NUMBER", "units of force", "Break force"},
+      {"break-torque", "NUMBER", "units of torque", "Break torque"},
       {"collide", "BOOL", "", "Whether the bodies of a joint touch"},
   };
 }
@@ -320,7 +319,7 @@ std::vector<AuthoringOption> state_options() {
       {"high", "NUMBER", "degrees or units of length", "Upper end"},
       {"stiffness", "NUMBER", "force / unit of position", "Of a drive; per degree where it turns"},
       {"damping", "NUMBER", "force / unit of velocity", "Of a drive; per degree where it turns"},
-      {"max-force", "NUMBER", "units of force or torque", "The most that a drive has"},
+      {"max-force", "NUMBER", "units of force or torque", "Maximum drive force or torque"},
       {"target-position", "NUMBER", "degrees or units of length", "Where a drive goes"},
       {"target-velocity", "NUMBER", "the same / s", "How fast a drive goes"},
       {"drive-type", "NAME", "", "force or acceleration"},

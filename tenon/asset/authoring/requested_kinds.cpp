@@ -6,6 +6,8 @@
 #include "tenon/asset/authoring/requested_kinds.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/property_value.h"
@@ -22,14 +24,45 @@ std::string listed_kinds() {
   return text;
 }
 
-Error unknown_kind(const std::string& name) {
+/// Other names of kinds, as other programs call them.
+constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {
+    {"box", "cube"},
+    {"ball", "sphere"},
+    {"hinge", "revolute"},
+    {"slider", "prismatic"},
+    {"linear", "prismatic"},
+    {"continuous", "revolute"},
+    {"ball-joint", "spherical"},
+    {"weld", "fixed"},
+    {"rigid-body", "body"},
+    {"rigidbody", "body"},
+    {"collision", "collider"},
+    {"motor", "drive"},
+    {"actuator", "drive"},
+    {"ground", "plane"},
+    {"group", "xform"},
+};
+
+/// Empty: none is near.
+std::string kind_meant(const std::string& name) {
+  for (const auto& [other, kind] : kOtherNames) {
+    if (name == other && find_kind(kind) != nullptr) {
+      return std::string(kind);
+    }
+  }
   const std::vector<std::string> names = kind_names();
   const std::vector<std::string_view> views(names.begin(), names.end());
-  const std::string near(nearest_name(name, views));
-  return Error(ErrorCode::Invalid, "nothing that can be added is called \"" + name + "\"" +
-                                       (near.empty() ? "" : "; did you mean " + near + "?"))
+  return std::string(nearest_name(name, views));
+}
+
+Error unknown_kind(const std::string& name) {
+  const std::string meant = kind_meant(name);
+  const bool known = !meant.empty();
+  return Error(ErrorCode::Invalid,
+               "unknown kind \"" + name + "\"" + (known ? "; did you mean \"" + meant + "\"?" : ""))
       .with_rule("edit.unknown-kind")
-      .with_fix("the kinds are: " + listed_kinds());
+      .with_fix(known ? "write " + meant + "; `tenon help add` lists all kinds"
+                      : "the kinds are: " + listed_kinds());
 }
 
 std::string options_of(const Kind& kind) {

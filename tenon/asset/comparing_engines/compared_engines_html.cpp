@@ -89,7 +89,7 @@ std::string objects_text(const motions::Reason& reason) {
 
 std::string reasons_table(const motions::Explanation& told) {
   if (told.reasons.empty()) {
-    return "<p>No single cause makes up 5 % of it.</p>\n";
+    return "<p>No single setting explains more than 5 % of the gap.</p>\n";
   }
   std::string html = "<table>" + heads({"share", "because", "property", "of"});
   for (const motions::Reason& reason : told.reasons) {
@@ -102,8 +102,8 @@ std::string reasons_table(const motions::Explanation& told) {
   }
   html += "</table>\n";
   if (told.together) {
-    html += "<p>Without all of these, " + html_text(rounded_text((1 - *told.together) * 100, 3)) +
-            " % of the distance is left.</p>\n";
+    html += "<p>These causes explain " + html_text(rounded_text(*told.together * 100, 4)) +
+            " % of the gap.</p>\n";
   }
   return html;
 }

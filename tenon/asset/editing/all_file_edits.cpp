@@ -115,7 +115,7 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
                                                       : edit.object.name().str();
     place.after = is_renaming(edit) ? edit.value : "";
   }
-  place.why = of_target ? "it named what is gone" : "the file speaks of it";
+  place.why = of_target ? "it named what is gone" : "defined in this file";
   if (removes && !of_target) {
     place.spec = spec.parent();  // what is there to be shown
   }

@@ -10,4 +10,9 @@ namespace tenon {
 /// working folder where it is absolute, else as it is.
 std::string shown_path(const std::string& path);
 
+/// From now on files at or below `folder`, an absolute path that a person gave, are shown by their
+/// absolute paths where they lie outside of the working folder. For a program, before it has
+/// threads.
+void show_absolute(const std::string& folder);
+
 }  // namespace tenon

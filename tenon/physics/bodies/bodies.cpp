@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string>
 
+#include "tenon/base/text/counted.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/scenes.h"
 #include "tenon/physics/world_pose.h"
@@ -207,8 +208,8 @@ void report_nesting(const ReadState& state) {
     if (nested[i] > 0) {
       state.report(state.walk.prims[i].prim, all_links[i] ? Severity::Info : Severity::Warning,
                    "body.nested",
-                   std::to_string(nested[i]) +
-                       " rigid bodies are nested below this one; each moves on its own",
+                   counted(nested[i], "rigid body is nested", "rigid bodies are nested") +
+                       " below this one; each moves on its own",
                    "author !resetXformStack! on them, or place them beside each other, for engines "
                    "that reject nested bodies");
     }

@@ -154,6 +154,10 @@ class BodyMassComputation {
     report_shift(sum);
     store(body_mass(sum, authored_or_default(sum), state_.readings.center_shift), sum);
     if (state_.provenance != nullptr) {
+      if (parts_.empty()) {  // nothing was needed of them
+        tells_ = false;
+        sum = sum_of(colliders);
+      }
       give_provenance(colliders, sum);
     }
   }
@@ -246,7 +250,7 @@ class BodyMassComputation {
     const SharedMeshes::Solid solid = rounder != state_.integrals_of_collider.end()
                                           ? SharedMeshes::Solid{rounder->second}
                                           : solid_of(collider.shape);
-    if (solid.used_hull) {
+    if (solid.used_hull && tells_) {
       // M-9
       state_.report(found.prim, Severity::Warning, "mass.open-mesh",
                     "the mesh is not closed: its mass is that of its convex hull",
@@ -455,6 +459,7 @@ class BodyMassComputation {
   std::map<std::uint32_t, AuthoredMass> groups_;
   std::map<Index, MassProperties> parts_;  ///< by collider, for provenance, as the next
   std::map<Index, AuthoredMass> authored_;
+  bool tells_ = true;  ///< findings
   bool has_mass_ = false;
   bool has_density_ = false;
 };

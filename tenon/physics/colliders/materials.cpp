@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/physics/colliders/collider_settings.h"
 #include "tenon/physics/colliders/shapes.h"
@@ -121,7 +122,8 @@ void report_unbound(const ReadState& state) {
   const auto count = std::count_if(first, colliders.end(), is_unbound);
   state.report(state.prim_of_collider(static_cast<Index>(first - colliders.begin())).prim,
                Severity::Info, "material.none-bound",
-               std::to_string(count) + " colliders have no physics material, others do: friction " +
+               counted(static_cast<std::size_t>(count), "collider has", "colliders have") +
+                   " no physics material, others do: friction " +
                    shortest(state.scene.unbound.dynamic_friction) +
                    " is used; PhysX uses 0.5, Newton and MuJoCo 1",
                "bind a physics material to every collider");

@@ -44,7 +44,8 @@ void report_drives(Build& build, Index index) {
   for (const scene::Dof dof : kSlotDofs) {
     const bool driven = is_driven(joint, dof);
     if (driven && joint.friction > 0) {
-      build.report(joint.path, "friction", "the joint has a drive, whose place it needs in PhysX");
+      build.report(joint.path, "friction",
+                   "joint friction is dropped: PhysX cannot combine it with a drive");
     }
     if (driven && map.d6 != nullptr && has_spring(joint)) {
       build.report(joint.path, "damping", "joints outside of articulations have their drive alone");
@@ -56,7 +57,8 @@ void report_drives(Build& build, Index index) {
                  "PhysX drives both swings of a joint with the gains of the last one");
   }
   if (has_spring(joint) && joint.friction > 0) {
-    build.report(joint.path, "friction", "the joint has a spring, whose place it needs in PhysX");
+    build.report(joint.path, "friction",
+                 "joint friction is dropped: PhysX cannot combine it with a spring");
   }
 }
 
