@@ -102,6 +102,8 @@ class Pages(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
+        self.scenes = self.folder / "scenes"  # copies: `tenon set` and `tenon add` write in place
+        shutil.copytree(SCENES, self.scenes)
 
     def typed(self, code, scene):
         """-> the words of a command of a page on a scene; none where it shows a word alone."""
@@ -114,8 +116,8 @@ class Pages(unittest.TestCase):
     def test_each_command_of_a_page_runs(self):
         ran = 0
         for page in sorted((ROOT / "docs/rules").glob("*.md")):
-            scene = SCENES / f"{page.stem}.usda"
-            scene = scene if scene.is_file() else SCENES / "mass.zero.usda"
+            scene = self.scenes / f"{page.stem}.usda"
+            scene = scene if scene.is_file() else self.scenes / "mass.zero.usda"
             for code in re.findall(r"`([^`\n]+)`", page.read_text()):
                 words = self.typed(code, scene) if page.stem != "README" else []
                 if words:
