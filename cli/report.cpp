@@ -85,7 +85,7 @@ int each_asset(const Globals& globals, const std::string& verb,
                const std::vector<std::string>& assets, const RunOne& run) {
   if (assets.empty()) {
     Report report(globals, verb, "");
-    return report.fail(Error(ErrorCode::Invalid, "tenon " + verb + ": no asset is given")
+    return report.fail(Error(ErrorCode::Invalid, "tenon " + verb + ": missing ASSET")
                            .with_rule("usage.missing-argument")
                            .with_fix("see `tenon " + verb + " --help`"));
   }

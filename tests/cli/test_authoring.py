@@ -574,7 +574,7 @@ def Xform "r" (
             verb, *arguments = words.split()
             with self.subTest(words=words):
                 self.refused(rule, verb, scene, *arguments)
-        self.assertIn("did you mean collider?",
+        self.assertIn('did you mean "collider"?',
                       self.refused("edit.unknown-kind", "add", scene, "/World/j=colider"))
         self.assertIn("it belongs to mass: write cube,body,mass", self.refused(
             "edit.bad-argument", "add", scene, "/World/j=cube,body", "--mass", "2"))

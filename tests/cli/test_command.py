@@ -142,7 +142,7 @@ class Command(unittest.TestCase):
             if any(o["positional"] and o["required"] for o in verb["options"]):
                 process = tenon(verb["name"])
                 self.assertEqual(process.returncode, 2, verb["name"])
-                self.assertIn("is given", process.stderr, verb["name"])
+                self.assertIn("missing ", process.stderr, verb["name"])
                 self.assertIn("--help", process.stderr, verb["name"])
         self.usage_error(["tree"], "missing ASSET")
         self.usage_error(["explain", "no-rule"], "explain")
