@@ -154,7 +154,8 @@ TEST(ConvertRobot, GivesGainsPerRadianToMuJoCoAndPerDegreeToDrives) {
   EXPECT_EQ(robot.joint("j").drives.at(0).max_force, 7);
   EXPECT_FALSE(robot.layer->has(Path::from("/bot/Physics/k_actuator")));
   options.joint_gains["nobody"] = {};
-  EXPECT_EQ(convert(mimic_robot("revolute", "revolute"), options).rules(), "convert.gains;");
+  EXPECT_EQ(convert(mimic_robot("revolute", "revolute"), options).rules(),
+            "convert.gains;convert.free-root;");
 }
 
 TEST(ConvertRobot, KeepsMassesToTheLastBit) {
@@ -302,7 +303,16 @@ TEST(ConvertRobot, HoldsRootsThatAreCalledSoUnlessTheyAreToFloat) {
   EXPECT_TRUE(held.scene.articulations.at(0).fixed_base);
   ConvertOptions options;
   options.float_base = true;
-  EXPECT_FALSE(convert(arm, options).scene.articulations.at(0).fixed_base);
+  const Converted floats = convert(arm, options);
+  EXPECT_EQ(floats.rules(), "");
+  EXPECT_FALSE(floats.scene.articulations.at(0).fixed_base);
+  // Of another name a root is free, which is said unless it was asked for or prevented.
+  const std::string other = link("trunk") + link("a") + joint("j", "continuous", "trunk", "a", "");
+  EXPECT_EQ(convert(other).rules(), "convert.free-root;");
+  EXPECT_EQ(convert(other, options).rules(), "");
+  ConvertOptions fixed;
+  fixed.fix_base = true;
+  EXPECT_EQ(convert(other, fixed).rules(), "");
   const Converted cart = convert(link("base_link") + link("a") +
                                  joint("j", "planar", "base_link", "a", "<axis xyz='0 0 1'/>"));
   EXPECT_EQ(cart.rules(), "");
@@ -320,7 +330,7 @@ TEST(ConvertRobot, MakesFramesOfLinksWithoutMass) {
       joint("mount", "fixed", "base", "tool", "<origin xyz='0 0 1'/>") +
       joint("j", "continuous", "tool", "a", "<origin xyz='0 0 2'/>");
   const Converted robot = convert(text);
-  EXPECT_EQ(robot.rules(), "convert.frame;");
+  EXPECT_EQ(robot.rules(), "convert.free-root;convert.frame;");
   ASSERT_EQ(robot.scene.bodies.size(), 2u);
   ASSERT_EQ(robot.scene.colliders.size(), 1u);
   EXPECT_EQ(robot.scene.bodies[*robot.scene.colliders[0].body].path.name(), "base");
