@@ -58,7 +58,7 @@ int fail(int argc, char** argv, std::string_view verb, const Error& error) {
   return tenon::cli::Report(globals, name, "").fail(error);
 }
 
-/// Whoever names files by absolute paths reads absolute paths.
+/// A caller that names files by absolute paths reads absolute paths.
 void show_paths_as_given(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::filesystem::path path(argv[i]);

@@ -139,7 +139,7 @@ Path write_joint(const Source& source, const LinkPrims& links, const robot::Join
   return path;
 }
 
-/// Nothing says that the root moves: neither a joint nor whoever converts.
+/// Neither a joint nor an option says that the root moves.
 bool may_stand(const Source& source) {
   const std::vector<robot::Joint>& joints = source.model.joints;
   const bool moves = std::any_of(joints.begin(), joints.end(), [](const auto& joint) {

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Formats are told by their contents, as names of files mislead: XML by its root element, meshes
+// by the bytes at their beginning. Text without such a sign is OBJ where its first lines are
+// statements of that format.
 #include "tenon/formats/foreign_format.h"
 
 #include <algorithm>
@@ -17,7 +21,7 @@ std::size_t behind(std::string_view text, std::string_view end, std::size_t at) 
   return found == std::string_view::npos ? text.size() : found + end.size();
 }
 
-/// Behind a document type, whose own declarations stand in brackets.
+/// Behind a document type, whose own declarations are in brackets.
 std::size_t behind_document_type(std::string_view text, std::size_t at) {
   const std::size_t open = text.find_first_of("[>", at);
   const bool has_declarations = open != std::string_view::npos && text[open] == '[';

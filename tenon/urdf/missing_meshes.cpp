@@ -84,7 +84,7 @@ void UrdfReader::report_missing_meshes() {
         together
             ? std::to_string(names.size()) + " meshes of the folder \"" +
                   folder_of(missing.written) + "\" " +
-                  (refused ? "lie outside of the folders that the asset may read"
+                  (refused ? "are outside of the folders that the asset may read"
                            : "cannot be found") +
                   ", the first is \"" + missing.written.substr(folder_of(missing.written).size()) +
                   "\"; their shapes are skipped"

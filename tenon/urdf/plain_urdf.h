@@ -7,8 +7,8 @@
 
 namespace tenon::urdf {
 
-/// What stands for "no limit" where URDF wants a number: readers take 0 as it is written.
-/// In N, N m, m/s or rad/s; what is read back from there on is no limit.
+/// Means "no limit" where URDF asks for a number, as other readers take 0 for a limit of 0.
+/// In N, N m, m/s or rad/s; a limit that is read and is not below it counts as none.
 inline constexpr double kNoUrdfLimit = 1e9;
 
 /// Puts what every reader of URDF knows in the place of what only some do, and says so: a capsule

@@ -28,7 +28,7 @@ struct Bracket {
   std::size_t offset = 0;
 };
 
-/// All brackets in order, but for those in comments, strings, asset paths and paths. Up to a
+/// All brackets in order, except those in comments, strings, asset paths and paths. Up to a
 /// comment or string that has no end.
 std::vector<Bracket> brackets_of(std::string_view text);
 
