@@ -96,7 +96,7 @@ class Case(unittest.TestCase):
 
 class OtherFormats(Case):
     def test_every_verb_that_reads_names_the_format_and_what_to_run(self):
-        verbs = {verb["name"] for verb in self.json("help")["commands"]}
+        verbs = {verb["name"] for verb in self.json("help")["verbs"]}
         self.assertLessEqual(verbs, READS.keys() | OTHERS, "a verb without a row here")
         for name, (contents, called, advice) in FOREIGN.items():
             self.write(name, contents)
@@ -335,7 +335,7 @@ class Words(Case):
             self.assertRegex(row, r"^(  \S+  +\S.*| {18,}\S.*|)$")
 
     def test_help_refers_to_lists_that_are_there(self):
-        for verb in self.json("help")["commands"]:
+        for verb in self.json("help")["verbs"]:
             text = self.tenon("help", verb["name"]).stdout
             self.assertNotIn("of those below", text, verb["name"])
             if "--reading" in text and verb["name"] != "physics":
