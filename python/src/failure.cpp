@@ -90,7 +90,27 @@ void raise(const Error& error, const Diagnostics& found) {
   throw nb::python_error();
 }
 
+namespace {
+
+void bind_related(nb::module_& module) {
+  nb::class_<RelatedPrim> bound(module, "RelatedPrim",
+                                "What a finding is about beside its own prim.");
+  bound.def_prop_ro(
+      "path", [](const RelatedPrim& related) { return message(related.path); },
+      "Of a prim or a property.");
+  bound.def_prop_ro(
+      "role", [](const RelatedPrim& related) { return role_name(related.role); },
+      "\"prim\", \"body\", \"collider\", \"joint\", \"articulation\", \"material\", \"scene\", "
+      "\"collisionGroup\", \"property\", or \"target\": what a relationship names.");
+  bound.def_prop_ro(
+      "file", [](const RelatedPrim& related) { return message(related.file); },
+      "The layer that the path is one of, where it is not the stage; often empty.");
+}
+
+}  // namespace
+
 void bind_diagnostics(nb::module_& module) {
+  bind_related(module);
   nb::class_<Diagnostic> bound(module, "Diagnostic",
                                "One finding about an input: what is wrong, where, and what to do "
                                "about it. Empty strings and zero numbers mean unknown.");
@@ -106,6 +126,17 @@ void bind_diagnostics(nb::module_& module) {
   add_text(bound, "property_name", &Diagnostic::property,
            "Its name, without the path of the prim.");
   add_text(bound, "fix", &Diagnostic::fix, "What can be done about it.");
+  bound.def_prop_ro(
+      "related",
+      [](const Diagnostic& finding) {
+        nb::list rows;
+        for (const RelatedPrim& related : finding.related) {
+          rows.append(nb::cast(related));
+        }
+        return rows;
+      },
+      nb::sig("def related(self) -> list[RelatedPrim]"),
+      "What it is about beside its own prim: all that the message names, and more.");
   const auto shown = [](const Diagnostic& finding) { return message(finding.to_string()); };
   bound.def("__str__", shown);
   bound.def("__repr__", shown);

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _tenon
 from ._tenon import VERSION as __version__
-from ._tenon import AssetPath, Diagnostic, Prim, Stage
+from ._tenon import AssetPath, Diagnostic, Prim, RelatedPrim, Stage
 from .errors import (
     CorruptError,
     Error,
@@ -71,6 +71,7 @@ __all__ = [
     "NotFoundError",
     "ParseError",
     "Prim",
+    "RelatedPrim",
     "Stage",
     "UnstableError",
     "UnsupportedError",

@@ -100,6 +100,13 @@ def Scope "S"
         findings = tenon.open(path).diagnostics
         self.assertEqual([finding.prim for finding in findings], ["/A"])
         self.assertEqual(findings[0].line, 3)
+        self.assertEqual(findings[0].related, [])
+
+    def test_findings_name_what_they_are_about(self):
+        path = self.written("lost.usda", '#usda 1.0\ndef "A" (\n    references = </B>\n)\n{\n}\n')
+        (related,) = tenon.open(path).diagnostics[0].related
+        self.assertEqual((related.path, related.role), ("/B", "prim"))
+        self.assertTrue(related.file.endswith("lost.usda"))
 
 
 class Editing(support.FilesTestCase):

@@ -8,6 +8,17 @@
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::answers {
+namespace {
+
+Json related_json(const RelatedPrim& prim) {
+  return {{"path", prim.path},
+          {"role", role_name(prim.role)},
+          {"file", file_or_null(prim.file)},
+          {"line", or_null(prim.line)},
+          {"column", or_null(prim.column)}};
+}
+
+}  // namespace
 
 Json diagnostic_json(const Diagnostic& d) {
   Json item = Json::object();
@@ -22,6 +33,10 @@ Json diagnostic_json(const Diagnostic& d) {
   item["prim"] = or_null(d.prim);
   item["property"] = or_null(d.property);
   item["fix"] = or_null(d.fix);
+  item["related"] = Json::array();
+  for (const RelatedPrim& prim : d.related) {
+    item["related"].push_back(related_json(prim));
+  }
   return item;
 }
 

@@ -12,7 +12,8 @@
 namespace tenon::answers {
 
 /// {"severity", "rule", "message", "file", "line", "column", "endLine", "endColumn", "prim",
-/// "property", "fix"}: null for what is unknown.
+/// "property", "fix", "related"}: null for what is unknown. "related": [{"path", "role", "file",
+/// "line", "column"}], what the finding is about beside its own prim.
 Json diagnostic_json(const Diagnostic& diagnostic);
 
 /// What every answer says before it comes to its subject.

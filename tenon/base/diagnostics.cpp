@@ -19,19 +19,25 @@ std::string_view severity_name(Severity severity) {
 }
 
 Diagnostic::Diagnostic() = default;
-Diagnostic::Diagnostic(Severity s, std::string r, std::string m, std::string of_prim,
+Diagnostic::Diagnostic(Severity s, std::string r, const Message& m, std::string of_prim,
                        std::string of_property, std::string f)
     : severity(s),
       rule(std::move(r)),
-      message(std::move(m)),
+      message(m.text()),
       prim(std::move(of_prim)),
       property(std::move(of_property)),
-      fix(std::move(f)) {}
+      fix(std::move(f)),
+      related(m.related()) {}
 Diagnostic::Diagnostic(const Diagnostic& other) = default;
 Diagnostic::Diagnostic(Diagnostic&& other) noexcept = default;
 Diagnostic& Diagnostic::operator=(const Diagnostic& other) = default;
 Diagnostic& Diagnostic::operator=(Diagnostic&& other) noexcept = default;
 Diagnostic::~Diagnostic() = default;
+
+void Diagnostic::say(const Message& sentence) {
+  message = sentence.text();
+  related = sentence.related();
+}
 
 std::string Diagnostic::to_string() const {
   std::string text;

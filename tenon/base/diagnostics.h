@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/message.h"
+
 namespace tenon {
 
 enum class Severity : std::uint8_t { Info, Warning, Error };
@@ -31,27 +33,31 @@ struct StatementPart {
 /// Empty strings and zero numbers mean "unknown".
 struct Diagnostic {
   Severity severity = Severity::Error;
-  std::string rule;              ///< stable dotted id, for example "joint.body-missing"
-  std::string message;           ///< one sentence that names the offending value
-  std::string file;              ///< layer identifier as the user would type it
-  std::uint32_t line = 0;        ///< 1-based
-  std::uint32_t column = 0;      ///< 1-based, in bytes
-  std::string prim;              ///< prim path
-  std::string property;          ///< property name without the prim path
-  std::string fix;               ///< what the user can do, an imperative phrase
-  std::uint32_t end_line = 0;    ///< of the byte behind what the finding is about
-  std::uint32_t end_column = 0;  ///< of the same
-  StatementPart part{};          ///< what to look up a closer place for
+  std::string rule;                    ///< stable dotted id, for example "joint.body-missing"
+  std::string message;                 ///< one sentence that names the offending value
+  std::string file;                    ///< layer identifier as the user would type it
+  std::uint32_t line = 0;              ///< 1-based
+  std::uint32_t column = 0;            ///< 1-based, in bytes
+  std::string prim;                    ///< prim path
+  std::string property;                ///< property name without the prim path
+  std::string fix;                     ///< what the user can do, an imperative phrase
+  std::uint32_t end_line = 0;          ///< of the byte behind what the finding is about
+  std::uint32_t end_column = 0;        ///< of the same
+  std::vector<RelatedPrim> related{};  ///< what else it is about
+  StatementPart part{};                ///< what to look up a closer place for
 
   Diagnostic();
   /// What is wrong with a prim, or with a property of it.
-  Diagnostic(Severity severity, std::string rule, std::string message, std::string prim,
+  Diagnostic(Severity severity, std::string rule, const Message& message, std::string prim,
              std::string property, std::string fix);
   Diagnostic(const Diagnostic& other);
   Diagnostic(Diagnostic&& other) noexcept;
   Diagnostic& operator=(const Diagnostic& other);
   Diagnostic& operator=(Diagnostic&& other) noexcept;
   ~Diagnostic();
+
+  /// Its sentence, and what that is about.
+  void say(const Message& message);
 
   /// `FILE:LINE:COL: severity: message [rule]` followed by prim and fix, without the unknown parts.
   std::string to_string() const;

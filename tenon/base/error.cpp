@@ -8,9 +8,9 @@ namespace tenon {
 
 void Error::Delete::operator()(Body* body) const { delete body; }
 
-Error::Error(ErrorCode code, std::string message) : body_(new Body) {
+Error::Error(ErrorCode code, const Message& message) : body_(new Body) {
   body_->code = code;
-  body_->diagnostic.message = std::move(message);
+  body_->diagnostic.say(message);
 }
 
 Error::Error(ErrorCode code, Diagnostic diagnostic) : body_(new Body) {

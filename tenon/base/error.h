@@ -25,7 +25,7 @@ enum class ErrorCode : std::uint8_t {
 /// Why nothing useful could be returned; one pointer wide.
 class Error {
  public:
-  Error(ErrorCode code, std::string message);
+  Error(ErrorCode code, const Message& message);
   Error(ErrorCode code, Diagnostic diagnostic);
   Error(const Error& other);
   Error(Error&&) noexcept = default;

@@ -170,7 +170,7 @@ template <>
 struct FieldTie<Diagnostic> {
   template <class Of, class Call>
   static constexpr auto with(Of& of, const Call& call) {
-    return tied(of, call, std::integral_constant<std::size_t, 12>());
+    return tied(of, call, std::integral_constant<std::size_t, 13>());
   }
 };
 

@@ -32,8 +32,8 @@ void check_kinematic_link(const Subject& subject, Reporter& report) {
       if (body.kinematic && !subject.has_finding("body.not-finite", body.path.str())) {
         report.at(
             subject.stage.prim(body.path), "physics:kinematicEnabled",
-            "the link of <" + articulation.path.str() +
-                "> is kinematic: articulations move all their links",
+            "the link of " + named(articulation.path, RelatedRole::Articulation) +
+                " is kinematic: articulations move all their links",
             "make the body dynamic and fix it by a joint, or take it out of the articulation");
       }
     }
@@ -48,8 +48,8 @@ void check_link_velocity(const Subject& subject, Reporter& report) {
       if (!body.kinematic &&
           !(body.linear_velocity == Vec3d{} && body.angular_velocity == Vec3d{})) {
         report.at(subject.stage.prim(body.path), "physics:velocity",
-                  "the link of <" + articulation.path.str() +
-                      "> has a velocity of its own, which PhysX ignores",
+                  "the link of " + named(articulation.path, RelatedRole::Articulation) +
+                      " has a velocity of its own, which PhysX ignores",
                   "author the velocities of the joints with PhysicsJointStateAPI");
       }
     }
@@ -104,8 +104,10 @@ void check_material_nested(const Subject& subject, Reporter& report) {
     }
     for (stage::Prim above = prim.parent(); above; above = above.parent()) {
       if (above.is_a("Material")) {
-        report.at(prim, "the material is inside of the material <" + above.path().str() + ">",
-                  "move it beside that one");
+        report.at(
+            prim,
+            "the material is inside of the material " + named(above.path(), RelatedRole::Material),
+            "move it beside that one");
         break;
       }
     }
@@ -119,8 +121,9 @@ void check_material_target(const Subject& subject, Reporter& report) {
         const stage::Prim material = subject.stage.prim(target);
         if (material && !material.is_a("Material")) {
           report.at_target(prim, name, target,
-                           std::string(name) + " names <" + target.str() + "> of type \"" +
-                               material.type_name().str() + "\", which is not a Material",
+                           std::string(name) + " names " + named(target, RelatedRole::Target) +
+                               " of type \"" + material.type_name().str() +
+                               "\", which is not a Material",
                            "name a Material prim");
         }
       }
@@ -133,9 +136,12 @@ void check_group_several(const Subject& subject, Reporter& report) {
   const auto& groups = subject.scene.filter.groups_of_collider;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (groups[i].size() > 1) {
-      report.at(subject.stage.prim(subject.scene.colliders[i].path),
-                "the collider is in " + std::to_string(groups[i].size()) +
-                    " collision groups; PhysX takes one of them",
+      Message message = "the collider is in " + std::to_string(groups[i].size()) +
+                        " collision groups; PhysX takes one of them";
+      for (const scene::Index group : groups[i]) {
+        message.about(subject.scene.filter.group_paths[group], RelatedRole::CollisionGroup);
+      }
+      report.at(subject.stage.prim(subject.scene.colliders[i].path), message,
                 "leave it in one group");
     }
   }

@@ -68,6 +68,27 @@ void place_in_file(const stage::Stage& stage, Diagnostic& d) {
   }
 }
 
+/// Where the strongest file says something about what a finding is about.
+void place_related(const stage::Stage& stage, RelatedPrim& related) {
+  const Path path = Path::from(related.path);
+  if (!related.file.empty() || path.empty()) {
+    return;
+  }
+  const stage::Prim prim = stage.prim(path.prim());
+  const std::vector<stage::SpecSite> sites =
+      path.is_property() ? prim.attribute(path.name()).spec_stack() : prim.spec_stack();
+  for (const stage::SpecSite& site : sites) {
+    if (site.layer != stage.session_layer()) {
+      Diagnostic placed;
+      layer::place_finding(placed, *site.layer, site.path, site.spec);
+      related.file = placed.file;
+      related.line = placed.line;
+      related.column = placed.column;
+      return;
+    }
+  }
+}
+
 auto order_of(const Finding& finding) {
   const Diagnostic& d = finding.diagnostic;
   return std::tie(d.file, d.line, d.column, d.prim, d.property, d.rule, d.message);
@@ -115,6 +136,9 @@ std::vector<Finding> check_stage(const stage::Stage& stage, const std::vector<Di
     }
     if (FixFunction* const suggest = suggestion_for(diagnostic.rule)) {
       finding.suggestion = suggest(subject, diagnostic);
+    }
+    for (RelatedPrim& related : diagnostic.related) {
+      place_related(stage, related);
     }
     finding.diagnostic = std::move(diagnostic);
     findings.push_back(std::move(finding));

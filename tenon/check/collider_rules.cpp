@@ -170,9 +170,15 @@ void check_overlap_at_start(const Subject& subject, Reporter& report) {
   for (const auto& [a, b] : overlaps_at_start(scene, kMaxReports)) {
     const Collider& first = scene.colliders[a];
     const Collider& second = scene.colliders[b];
-    report.at(subject.stage.prim(first.path),
-              "at the start the collider reaches into <" + second.path.str() +
-                  ">: the solver will push them apart violently",
+    Message message = "at the start the collider reaches into " +
+                      named(second.path, RelatedRole::Collider) +
+                      ": the solver will push them apart violently";
+    for (const Collider* collider : {&first, &second}) {
+      if (collider->body) {
+        message.about(scene.bodies[*collider->body].path, RelatedRole::Body);
+      }
+    }
+    report.at(subject.stage.prim(first.path), message,
               "move them apart, or filter all such pairs with `tenon set ASSET --filter-overlaps`");
   }
 }

@@ -15,6 +15,7 @@
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/scene/about_bodies.h"
 #include "tenon/scene/joint_forest.h"
 #include "tenon/scene/joint_freedom.h"
 #include "tenon/scene/motion/fit_velocities.h"
@@ -201,10 +202,13 @@ void check_parallel_joints(const Subject& subject, Reporter& report) {
     const auto pair = std::minmax(*joint.body0, *joint.body1);
     const auto added = first.emplace(std::pair(pair.first, pair.second), &joint);
     if (!added.second) {
-      report.at(prim_of(subject, joint),
-                "<" + added.first->second->path.str() +
-                    "> joins the same two bodies: both hold at once, and reduced solvers skip one",
-                "make one PhysicsJoint with a limit per axis, or exclude one from articulations");
+      report.at(
+          prim_of(subject, joint),
+          about_bodies(
+              subject.scene, joint,
+              named(added.first->second->path, RelatedRole::Joint) +
+                  " joins the same two bodies: both hold at once, and reduced solvers skip one"),
+          "make one PhysicsJoint with a limit per axis, or exclude one from articulations");
     }
   }
 }
@@ -217,7 +221,9 @@ void check_joint_moves_something(const Subject& subject, Reporter& report) {
     const bool judged =
         is_without_place(subject, joint.body0) || is_without_place(subject, joint.body1);
     if (joint.enabled && !judged && !is_dynamic(joint.body0) && !is_dynamic(joint.body1)) {
-      report.at(prim_of(subject, joint), "neither side of the joint moves freely: it has no effect",
+      report.at(prim_of(subject, joint),
+                about_bodies(subject.scene, joint,
+                             "neither side of the joint moves freely: it has no effect"),
                 "make one of its bodies dynamic, or remove the joint");
     }
   }
@@ -259,7 +265,8 @@ void check_velocities_apart(const Subject& subject, Reporter& report) {
   const scene::FittedVelocities fitted = scene::fit_velocities(
       scene, scene::joint_forest(scene), dofs, states, scene::LinkVelocities::OfJoints);
   for (const scene::LostEnergy& loss : fitted.losses) {
-    report.at(prim_of(subject, scene.joints[loss.joint]), scene::words_of(loss),
+    report.at(prim_of(subject, scene.joints[loss.joint]),
+              about_bodies(scene, scene.joints[loss.joint], scene::words_of(loss)),
               "give the bodies velocities with which the joint's frames stay together");
   }
 }
@@ -276,8 +283,9 @@ void check_joint_state(const Subject& subject, Reporter& report) {
     if (gap > (angular ? 1e-2 : 1e-3)) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(prim_of(subject, joint),
-                "the joint state says " + digits(*joint.initial_position * unit) +
-                    ", the poses of the bodies say " + digits(posed * unit),
+                about_bodies(subject.scene, joint,
+                             "the joint state says " + digits(*joint.initial_position * unit) +
+                                 ", the poses of the bodies say " + digits(posed * unit)),
                 "author the state that the poses have, or move the bodies");
     }
   }

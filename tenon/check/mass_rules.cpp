@@ -8,6 +8,7 @@
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
 #include "tenon/math/inertia.h"
+#include "tenon/scene/about_bodies.h"
 
 namespace tenon::check {
 namespace {
@@ -184,9 +185,10 @@ void check_mass_ratio(const Subject& subject, Reporter& report) {
     const double ratio = std::fmax(a.mass, b.mass) / std::fmin(a.mass, b.mass);
     if (ratio > kLargestRatio) {
       report.at(prim_of(subject, joint.path),
-                "the joint holds " + digits(std::fmax(a.mass, b.mass)) + " kg to " +
-                    digits(std::fmin(a.mass, b.mass)) + " kg: solvers lose precision at " +
-                    digits(ratio) + " to 1",
+                about_bodies(subject.scene, joint,
+                             "the joint holds " + digits(std::fmax(a.mass, b.mass)) + " kg to " +
+                                 digits(std::fmin(a.mass, b.mass)) +
+                                 " kg: solvers lose precision at " + digits(ratio) + " to 1"),
                 "check the masses, or make the light body part of the other");
     }
   }

@@ -41,6 +41,11 @@ struct Follower {
   std::string name(const char* one_axis) const {
     return has_one_axis(joint) ? one_axis : "the joint's " + std::string(dof_name(mimic.dof));
   }
+  /// The sentence, which is about the leader as well.
+  Message about_leader(Message message) const {
+    message.about(leader.path, RelatedRole::Joint);
+    return message;
+  }
   /// What its coordinate counts in, in the asset, for one rad or m.
   double unit(const scene::PhysicsScene& scene) const {
     return has_one_axis(joint) ? coordinate_unit(scene, joint) : kDegreesPerRadian;
@@ -78,9 +83,10 @@ void check_mimic_limits(const Subject& subject, Reporter& report) {
       const double unit = follower.unit(subject.scene);
       report.at(
           follower.prim,
-          "over the leader's limits " + follower.name("the follower") + " goes from " +
-              digits(low * unit) + " to " + digits(high * unit) + ", its own limits are " +
-              digits(own.lower * unit) + " and " + digits(own.upper * unit),
+          follower.about_leader("over the leader's limits " + follower.name("the follower") +
+                                " goes from " + digits(low * unit) + " to " + digits(high * unit) +
+                                ", its own limits are " + digits(own.lower * unit) + " and " +
+                                digits(own.upper * unit)),
           "widen the follower's limits, or narrow those of <" + follower.leader.path.str() + ">");
     }
   });
@@ -90,7 +96,8 @@ void check_mimic_gear(const Subject& subject, Reporter& report) {
   each_follower(subject, [&](const Follower& follower) {
     if (follower.mimic.multiplier == 0 && follower.mimic.higher == std::array<double, 3>{}) {
       report.at(follower.prim,
-                "the mimic's factor is 0: " + follower.name("the joint") + " is held still",
+                follower.about_leader("the mimic's factor is 0: " + follower.name("the joint") +
+                                      " is held still"),
                 "author the factor, or use a fixed joint");
     }
   });
@@ -111,8 +118,8 @@ void check_mimic_leader(const Subject& subject, Reporter& report) {
   each_follower(subject, [&](const Follower& follower) {
     if (!follower.leader.enabled) {
       report.at(follower.prim,
-                "the leader <" + follower.leader.path.str() +
-                    "> is disabled and holds nothing: there is no coordinate to follow",
+                "the leader " + named(follower.leader.path, RelatedRole::Joint) +
+                    " is disabled and holds nothing: there is no coordinate to follow",
                 "enable the leader, or follow another joint");
     }
   });
@@ -125,8 +132,8 @@ void check_mimic_chain(const Subject& subject, Reporter& report) {
           return mimic.dof == follower.mimic.leader_dof;
         })) {
       report.at(follower.prim,
-                "the leader <" + follower.leader.path.str() +
-                    "> follows another joint itself; Newton rejects such chains",
+                "the leader " + named(follower.leader.path, RelatedRole::Joint) +
+                    " follows another joint itself; Newton rejects such chains",
                 "let the joint follow the first leader, with the factors multiplied");
     }
   });
@@ -146,8 +153,8 @@ void check_mimic_start(const Subject& subject, Reporter& report) {
     if (std::fabs(gap) > kFollowerSlack) {
       const double unit = coordinate_unit(subject.scene, joint);
       report.at(follower.prim,
-                "at the start the joint is at " + digits(start * unit) + ", the mimic wants " +
-                    digits(wanted * unit) + ": it jerks",
+                follower.about_leader("at the start the joint is at " + digits(start * unit) +
+                                      ", the mimic wants " + digits(wanted * unit) + ": it jerks"),
                 "correct the mimic's offset or the poses of the bodies");
     }
   });

@@ -253,9 +253,12 @@ void check_floor_elsewhere(const Subject& subject, Reporter& report) {
         body.kinematic || forest.bodies[i].fixed ? nullptr : floor_elsewhere(subject, floors, i);
     if (floor != nullptr) {
       report.at(subject.stage.prim(body.path),
-                "<" + floor->path.str() + "> is below the body but belongs to the scene <" +
-                    subject.scene.scenes[floor->scene].path.str() + ">, the body to <" +
-                    subject.scene.scenes[body.scene].path.str() + ">: it falls through",
+                named(floor->path, RelatedRole::Collider) +
+                    " is below the body but belongs to the scene " +
+                    named(subject.scene.scenes[floor->scene].path, RelatedRole::Scene) +
+                    ", the body to " +
+                    named(subject.scene.scenes[body.scene].path, RelatedRole::Scene) +
+                    ": it falls through",
                 "author the same physics:simulationOwner on both");
     }
   }

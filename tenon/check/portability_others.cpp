@@ -114,8 +114,8 @@ void check_newton_mimic_chain(const Subject& subject, Reporter& report) {
       const Joint& leader = subject.scene.joints[mimic.leader];
       if (!leader.mimics.empty()) {
         report.at(prim_of_joint(subject, joint),
-                  "Newton stops at mimics in a chain: the leader <" + leader.path.str() +
-                      "> follows another joint",
+                  "Newton stops at mimics in a chain: the leader " +
+                      named(leader.path, RelatedRole::Joint) + " follows another joint",
                   "let the joint follow the first leader, with the factors multiplied");
       }
     }
@@ -127,7 +127,8 @@ void check_newton_gravities(const Subject& subject, Reporter& report) {
   for (std::size_t i = 1; i < scenes.size(); ++i) {
     if (length(scenes[i].gravity - scenes[0].gravity) > kSameGravity) {
       report.at(subject.stage.prim(scenes[i].path),
-                "Newton pulls all bodies by the gravity of <" + scenes[0].path.str() + ">, " +
+                "Newton pulls all bodies by the gravity of " +
+                    named(scenes[0].path, RelatedRole::Scene) + ", " +
                     digits(length(scenes[0].gravity)) + " m/s^2, not by the " +
                     digits(length(scenes[i].gravity)) + " of this scene",
                 "put the scenes into files of their own");

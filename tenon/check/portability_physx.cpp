@@ -192,9 +192,10 @@ void check_physx_root(const Subject& subject, Reporter& report) {
     }
     const Joint& joint = subject.scene.joints[*root];
     report.at(joint_prim(subject, joint),
-              "PhysX fixes the root link of <" + articulation.path.str() +
-                  "> in place: this joint does not move there, " +
-                  std::to_string(free_dofs(joint)) + " degrees of freedom are lost",
+              "PhysX fixes the root link of " +
+                  named(articulation.path, RelatedRole::Articulation) +
+                  " in place: this joint does not move there, " + std::to_string(free_dofs(joint)) +
+                  " degrees of freedom are lost",
               "put a link that a PhysicsFixedJoint holds between the world and the joint");
   }
 }
@@ -281,8 +282,9 @@ void check_physx_mimic_limits(const Subject& subject, Reporter& report) {
       if (joint.enabled && mimic.schema == "PhysxMimicJointAPI" &&
           (std::isinf(limit.lower) || std::isinf(limit.upper))) {
         report.at(joint_prim(subject, joint),
-                  "PhysX leaves the mimic out: its leader <" + leader.path.str() +
-                      "> has no finite limits, so the joint moves by itself there",
+                  "PhysX leaves the mimic out: its leader " +
+                      named(leader.path, RelatedRole::Joint) +
+                      " has no finite limits, so the joint moves by itself there",
                   "author physics:lowerLimit and physics:upperLimit on the leader");
       }
     }
@@ -349,8 +351,9 @@ void check_physx_tunnel(const Subject& subject, Reporter& report) {
     if (passed != nullptr) {
       report.at(prim, "physics:velocity",
                 "in a step of " + digits(step) + " s PhysX moves the body by " +
-                    digits(length(body.linear_velocity) * step) + " m, and <" + passed->path.str() +
-                    "> on its way is " + digits(thickness) + " m thick: it can pass through",
+                    digits(length(body.linear_velocity) * step) + " m, and " +
+                    named(passed->path, RelatedRole::Collider) + " on its way is " +
+                    digits(thickness) + " m thick: it can pass through",
                 "author physxRigidBody:enableCCD, or a smaller step");
     }
   }

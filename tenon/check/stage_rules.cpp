@@ -148,7 +148,8 @@ void check_target_missing(const Subject& subject, Reporter& report) {
                            subject.has_finding("scene.owner-missing", prim.path().str());
         if (!exists && !owner && !subject.is_reported(prim.path().str(), name.str())) {
           report.at_target(prim, name, target,
-                           name.str() + " names <" + target.str() + ">, which does not exist",
+                           name.str() + " names " + named(target, RelatedRole::Target) +
+                               ", which does not exist",
                            "name what exists, or remove the target");
         }
       }

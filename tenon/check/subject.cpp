@@ -92,17 +92,16 @@ void Reporter::add(Diagnostic diagnostic, const stage::Prim& prim, std::string f
   out_->push_back(std::move(diagnostic));
 }
 
-void Reporter::at(const stage::Prim& prim, std::string message, std::string fix,
+void Reporter::at(const stage::Prim& prim, const Message& message, std::string fix,
                   StatementPart part) {
-  add(prim.located(rule_->severity, std::string(rule_->id), std::move(message), std::move(part)),
-      prim, std::move(fix));
+  add(prim.located(rule_->severity, std::string(rule_->id), message, std::move(part)), prim,
+      std::move(fix));
 }
 
-void Reporter::at(const stage::Prim& prim, Token property, std::string message, std::string fix,
+void Reporter::at(const stage::Prim& prim, Token property, const Message& message, std::string fix,
                   StatementPart part) {
   const auto found_at = [&](const auto& opinions) {
-    return opinions.located(rule_->severity, std::string(rule_->id), std::move(message),
-                            std::move(part));
+    return opinions.located(rule_->severity, std::string(rule_->id), message, std::move(part));
   };
   Diagnostic found = prim.is_relationship(property) ? found_at(prim.relationship(property))
                                                     : found_at(prim.attribute(property));
@@ -112,23 +111,22 @@ void Reporter::at(const stage::Prim& prim, Token property, std::string message, 
   add(std::move(found), prim, std::move(fix));
 }
 
-void Reporter::at_target(const stage::Prim& prim, Token property, Path target, std::string message,
-                         std::string fix) {
+void Reporter::at_target(const stage::Prim& prim, Token property, Path target,
+                         const Message& message, std::string fix) {
   const auto found_at = [&](const auto& opinions) {
-    return opinions.located_target(rule_->severity, std::string(rule_->id), std::move(message),
-                                   target);
+    return opinions.located_target(rule_->severity, std::string(rule_->id), message, target);
   };
   add(prim.is_relationship(property) ? found_at(prim.relationship(property))
                                      : found_at(prim.attribute(property)),
       prim, std::move(fix));
 }
 
-void Reporter::at_root(const stage::Stage& stage, std::string message, std::string fix,
+void Reporter::at_root(const stage::Stage& stage, const Message& message, std::string fix,
                        StatementPart part) {
   Diagnostic found;
   found.severity = rule_->severity;
   found.rule = rule_->id;
-  found.message = std::move(message);
+  found.say(message);
   layer::place_finding(found, stage.root_layer(), Path::absolute_root(), std::move(part));
   found.line = 1;
   found.fix = std::move(fix);

@@ -44,15 +44,16 @@ class Reporter {
   Reporter(const Rule& rule, std::vector<Diagnostic>& out) : rule_(&rule), out_(&out) {}
 
   /// At the strongest opinion on the prim.
-  void at(const stage::Prim& prim, std::string message, std::string fix, StatementPart part = {});
+  void at(const stage::Prim& prim, const Message& message, std::string fix,
+          StatementPart part = {});
   /// At the strongest opinion on a property, or on the prim where there is none.
-  void at(const stage::Prim& prim, Token property, std::string message, std::string fix,
+  void at(const stage::Prim& prim, Token property, const Message& message, std::string fix,
           StatementPart part = {});
   /// At one target or connection of a property, given in the stage's namespace.
-  void at_target(const stage::Prim& prim, Token property, Path target, std::string message,
+  void at_target(const stage::Prim& prim, Token property, Path target, const Message& message,
                  std::string fix);
   /// At the top of the root layer, or at a field of it.
-  void at_root(const stage::Stage& stage, std::string message, std::string fix,
+  void at_root(const stage::Stage& stage, const Message& message, std::string fix,
                StatementPart part = {});
 
  private:

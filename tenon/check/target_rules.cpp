@@ -113,11 +113,11 @@ void check_joint_sides(const Subject& subject, Reporter& report) {
     }
     const std::string type = prim.type_name().str();
     report.at(subject.stage.prim(joint->path), name,
-              linked ? "<" + path.str() + "> is one side of this joint and of <" +
-                           place.first->path.str() +
-                           ">, and no rigid body that is enabled: both hold to the world there"
-                     : name.str() + " names <" + path.str() + "> of type \"" + type +
-                           "\", which has no place: the joint holds to the world",
+              linked ? named(path, RelatedRole::Target) + " is one side of this joint and of " +
+                           named(place.first->path, RelatedRole::Joint) +
+                           ", and no rigid body that is enabled: both hold to the world there"
+                     : name.str() + " names " + named(path, RelatedRole::Target) + " of type \"" +
+                           type + "\", which has no place: the joint holds to the world",
               linked ? "apply PhysicsRigidBodyAPI to it, and enable it" : "name a rigid body");
   }
 }
@@ -138,8 +138,8 @@ void check_filtered_colliders(const Subject& subject, Reporter& report) {
     for (const Path& target : targets) {
       if (subject.stage.prim(target) && !stands_for_colliders(subject, target)) {
         report.at_target(prim, name, target,
-                         "physics:filteredPairs names <" + target.str() +
-                             ">, and there is no collider at or below it: the pair filters nothing",
+                         "physics:filteredPairs names " + named(target, RelatedRole::Target) +
+                             ", and there is no collider at or below it: the pair filters nothing",
                          "name a collider, a body or an articulation");
       }
     }
@@ -156,8 +156,9 @@ void check_group_cycle(const Subject& subject, Reporter& report) {
     const Path through = way_back(subject.stage, own);
     if (!through.empty()) {
       report.at_target(prim, kIncludes, through,
-                       "the collection leads back to itself through <" + through.str() +
-                           ">: what it goes through has its members in common",
+                       "the collection leads back to itself through " +
+                           named(through, RelatedRole::Property) +
+                           ": what it goes through has its members in common",
                        "let one of the collections name its members itself");
     }
   }
@@ -179,8 +180,8 @@ void check_binding_purpose(const Subject& subject, Reporter& report) {
         if (material && material.has_api("PhysicsMaterialAPI") &&
             !is_drawn_for(purpose, material)) {
           report.at_target(prim, name, target,
-                           "the physics material <" + target.str() +
-                               "> is bound for the purpose \"" + std::string(purpose) +
+                           "the physics material " + named(target, RelatedRole::Target) +
+                               " is bound for the purpose \"" + std::string(purpose) +
                                "\", which physics does not ask for",
                            "bind it by material:binding:physics");
         }
@@ -198,8 +199,8 @@ void check_bound_without_physics(const Subject& subject, Reporter& report) {
       if (material && material.is_a("Material") && !material.has_api("PhysicsMaterialAPI") &&
           !subject.has_finding("attribute.api-missing", target.str())) {
         report.at_target(prim, name, target,
-                         "material:binding:physics names <" + target.str() +
-                             ">, which has no PhysicsMaterialAPI: no physics material is bound",
+                         "material:binding:physics names " + named(target, RelatedRole::Target) +
+                             ", which has no PhysicsMaterialAPI: no physics material is bound",
                          "apply PhysicsMaterialAPI to the material and author its friction");
       }
     }

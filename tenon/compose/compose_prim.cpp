@@ -159,11 +159,10 @@ void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
 }  // namespace
 
 void Indexer::report(std::string_view error_class, const layer::Layer* layer, Path spec,
-                     std::string message, std::string fix, StatementPart part) {
-  services.work->count(kReportUnits + message.size() / kTextOfUnit);
+                     const Message& message, std::string fix, StatementPart part) {
+  services.work->count(kReportUnits + message.text().size() / kTextOfUnit);
   errors.add(composition_error(error_class, Severity::Error,
-                               {layer, spec, root_prim, std::move(part)}, std::move(message),
-                               std::move(fix)));
+                               {layer, spec, root_prim, std::move(part)}, message, std::move(fix)));
 }
 
 void build_graph(Indexer& indexer, const Site& site, bool root_contributes) {

@@ -19,11 +19,11 @@ bool is_work_exceeded(const Diagnostic& found) {
 }
 
 Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
-                             std::string message, std::string fix) {
+                             const Message& message, std::string fix) {
   Diagnostic found;
   found.severity = severity;
   found.rule = rule_of(error_class);
-  found.message = std::move(message);
+  found.say(message);
   found.fix = std::move(fix);
   if (!at.prim.empty()) {
     found.prim = at.prim.str();
@@ -38,10 +38,9 @@ Diagnostic composition_error(std::string_view error_class, Severity severity, co
   return found;
 }
 
-std::string quoted(Path path) { return "<" + path.str() + ">"; }
-
-std::string quoted(const layer::Layer& layer, Path path) {
-  return "@" + layer.identifier() + "@" + quoted(path);
+Message named_in(const layer::Layer& layer, Path path) {
+  return named(path, path.is_property() ? RelatedRole::Property : RelatedRole::Prim,
+               layer.identifier());
 }
 
 }  // namespace tenon::compose

@@ -48,13 +48,12 @@ struct AuthoredAt {
 
 /// A finding with the file and line of the spec where its cause is authored.
 Diagnostic composition_error(std::string_view error_class, Severity severity, const AuthoredAt& at,
-                             std::string message, std::string fix);
+                             const Message& message, std::string fix);
 
 /// Composition ended at its bound of work: what was composed is a part.
 bool is_work_exceeded(const Diagnostic& found);
 
-/// `<path>`, or `@layer@<path>` when a layer is given.
-std::string quoted(Path path);
-std::string quoted(const layer::Layer& layer, Path path);
+/// `@layer@<path>`: a path within a layer.
+Message named_in(const layer::Layer& layer, Path path);
 
 }  // namespace tenon::compose

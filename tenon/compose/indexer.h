@@ -80,7 +80,7 @@ struct Indexer {
   bool is_outermost() const { return frame == nullptr; }
 
   void report(std::string_view error_class, const layer::Layer* layer, Path spec,
-              std::string message, std::string fix, StatementPart part = {});
+              const Message& message, std::string fix, StatementPart part = {});
 };
 
 /// A node together with the frame it is in; steps across frames.

@@ -206,14 +206,14 @@ class Builder {
   }
 
   /// `sublayer` as it is authored; empty where the finding is about all of them.
-  void report(std::string_view error_class, const layer::Layer& layer, std::string message,
+  void report(std::string_view error_class, const layer::Layer& layer, const Message& message,
               std::string fix, const std::string& sublayer) {
     count(kFindingUnits);
     const StatementPart part =
         layer::item_part(fields::subLayers, layer::item_text(sublayer, Path()));
     stack_.errors.add(composition_error(error_class, Severity::Error,
-                                        {&layer, Path::absolute_root(), {}, part},
-                                        std::move(message), std::move(fix)));
+                                        {&layer, Path::absolute_root(), {}, part}, message,
+                                        std::move(fix)));
   }
 
   const LayerStackInputs& inputs_;

@@ -158,14 +158,14 @@ class TargetCombiner {
       const Path introduced = parent == kNoNode ? Path() : index_.nodes()[parent].path;
       const Path introduced_at = climb_to_introduction(index_, opinion.node, introduced);
       report(error_class::kInvalidExternalTargetPath, opinion, path, {},
-             quoted(in_node) + " is outside of what the " + std::string(arc_name(arc)) + " of " +
-                 quoted(introduced_at) + " brings in; it is ignored",
+             named(in_node) + " is outside of what the " + std::string(arc_name(arc)) + " of " +
+                 named(introduced_at) + " brings in; it is ignored",
              "target something below the prim that the arc leads to");
       return {};
     }
     if (cache_ != nullptr && targets_instance_of_class(in_node, target, opinion)) {
       report(error_class::kInvalidInstanceTargetPath, opinion, path, target,
-             quoted(in_node) + " is authored in a class but is inside its user; it is ignored",
+             named(in_node) + " is authored in a class but is inside its user; it is ignored",
              "target something within the class");
       return {};
     }
@@ -205,7 +205,7 @@ class TargetCombiner {
   }
 
   void report(std::string_view error_class, const PropertyOpinion& opinion, Path authored,
-              Path target, const std::string& message, std::string fix) {
+              Path target, const Message& message, std::string fix) {
     const char* what = opinion.spec->kind == SpecKind::Attribute ? "connection " : "target ";
     errors_.push_back(
         {target, composition_error(error_class, Severity::Error,
@@ -233,8 +233,8 @@ std::vector<PropertyOpinion> property_opinions(const PrimIndex& index, Token nam
     } else if (errors != nullptr) {
       errors->add(composition_error(error_class::kInconsistentPropertyType, Severity::Error,
                                     {opinion.layer, path, index.path},
-                                    quoted(path) + " is an attribute here and a relationship in " +
-                                        quoted(*found.front().layer, found.front().path) +
+                                    named(path) + " is an attribute here and a relationship in " +
+                                        named_in(*found.front().layer, found.front().path) +
                                         " or the reverse; it is ignored",
                                     "make both the same kind of property"));
     }

@@ -237,7 +237,7 @@ Result<void> LayerEditor::move_prim(Path from, Path to) {
   }
   if (layer_->has(to) || to.has_prefix(from) || !layer_->has(to.parent())) {
     return Error(ErrorCode::Invalid,
-                 "<" + from.str() + "> cannot become <" + to.str() + ">: " +
+                 "<" + from.str() + "> cannot become " + named(to) + ": " +
                      (layer_->has(to) ? "a prim is there already"
                                       : "its parent is not there or moves along"))
         .in_file(layer_->identifier())

@@ -37,9 +37,11 @@ Error hidden(Path prim) {
 Result<void> check_comes_over_no_arc(const FoundPrim& found, Path prim) {
   for (const compose::Node& node : found.index->nodes()) {
     if (node.due_to_ancestor && node.has_opinions()) {
-      return Error(ErrorCode::Invalid,
-                   "<" + prim.str() + "> comes over an arc of a prim above it, with <" +
-                       node.path.str() + "> of " + node.layer_stack->identifier())
+      const std::string& layer = node.layer_stack->identifier();
+      Message message = "<" + prim.str() + "> comes over an arc of a prim above it, with <" +
+                        node.path.str() + "> of " + layer;
+      message.about(node.path, RelatedRole::Prim, layer);
+      return Error(ErrorCode::Invalid, message)
           .with_prim(prim.str())
           .with_rule("edit.bad-move")
           .with_fix("author a relocate, or move the prim where the arc leads");
@@ -208,8 +210,8 @@ Result<void> StageEditor::move_prim(Path from, Path to) {
   TENON_CHECK(check_prim_path(to));
   TENON_CHECK(check_comes_over_no_arc(found, from));
   if (view().prim(to) || !view().prim(to.parent())) {
-    return Error(ErrorCode::Invalid, view().prim(to) ? "<" + to.str() + "> is there already"
-                                                     : "there is no <" + to.parent().str() + ">")
+    return Error(ErrorCode::Invalid, view().prim(to) ? named(to) + " is there already"
+                                                     : "there is no " + named(to.parent()))
         .with_prim(from.str())
         .with_rule("edit.bad-move")
         .with_fix("choose another path");

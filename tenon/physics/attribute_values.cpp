@@ -161,10 +161,9 @@ std::optional<bool> AttributeValues::authored_flag(const stage::Prim& prim, Toke
 }
 
 void AttributeValues::report(const stage::Prim& prim, Token name, Severity severity,
-                             const char* rule, std::string message, std::string fix,
+                             const char* rule, const Message& message, std::string fix,
                              StatementPart part) const {
-  Diagnostic finding =
-      prim.attribute(name).located(severity, rule, std::move(message), std::move(part));
+  Diagnostic finding = prim.attribute(name).located(severity, rule, message, std::move(part));
   if (finding.prim.empty()) {
     finding.prim = prim.path().str();
   }
@@ -176,10 +175,9 @@ void AttributeValues::report(const stage::Prim& prim, Token name, Severity sever
 }
 
 void AttributeValues::report_target(const stage::Prim& prim, Token name, Path target,
-                                    Severity severity, const char* rule, std::string message,
+                                    Severity severity, const char* rule, const Message& message,
                                     std::string fix) const {
-  Diagnostic finding =
-      prim.relationship(name).located_target(severity, rule, std::move(message), target);
+  Diagnostic finding = prim.relationship(name).located_target(severity, rule, message, target);
   finding.fix = std::move(fix);
   diagnostics_->add(std::move(finding));
 }
@@ -200,8 +198,8 @@ void AttributeValues::report_type(const stage::Prim& prim, Token name, layer::Va
 }
 
 void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
-            std::string message, std::string fix, StatementPart part) {
-  Diagnostic finding = prim.located(severity, rule, std::move(message), std::move(part));
+            const Message& message, std::string fix, StatementPart part) {
+  Diagnostic finding = prim.located(severity, rule, message, std::move(part));
   if (finding.prim.empty()) {
     finding.prim = prim.path().str();
   }

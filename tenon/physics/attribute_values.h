@@ -98,10 +98,10 @@ class AttributeValues {
 
   /// One finding with the place of the strongest opinion about the attribute.
   void report(const stage::Prim& prim, Token name, Severity severity, const char* rule,
-              std::string message, std::string fix, StatementPart part = {}) const;
+              const Message& message, std::string fix, StatementPart part = {}) const;
   /// The same with the place of one of its targets.
   void report_target(const stage::Prim& prim, Token name, Path target, Severity severity,
-                     const char* rule, std::string message, std::string fix) const;
+                     const char* rule, const Message& message, std::string fix) const;
 
  private:
   /// The value where it stands, or in `room`.
@@ -121,7 +121,7 @@ class AttributeValues {
 
 /// One finding about a prim as a whole, or about what `part` names.
 void report(Diagnostics& diagnostics, const stage::Prim& prim, Severity severity, const char* rule,
-            std::string message, std::string fix, StatementPart part = {});
+            const Message& message, std::string fix, StatementPart part = {});
 
 /// An API that a prim applies; the name of an instance is part of it.
 StatementPart api_part(std::string name);

@@ -107,15 +107,13 @@ struct ReadState {
   }
   bool is_dynamic(Index body) const { return !scene.bodies[body].kinematic; }
 
-  void report(const stage::Prim& prim, Severity severity, const char* rule, std::string message,
+  void report(const stage::Prim& prim, Severity severity, const char* rule, const Message& message,
               std::string fix, StatementPart part = {}) const {
-    physics::report(diagnostics, prim, severity, rule, std::move(message), std::move(fix),
-                    std::move(part));
+    physics::report(diagnostics, prim, severity, rule, message, std::move(fix), std::move(part));
   }
   void report(const stage::Prim& prim, Token property, Severity severity, const char* rule,
-              std::string message, std::string fix, StatementPart part = {}) const {
-    values.report(prim, property, severity, rule, std::move(message), std::move(fix),
-                  std::move(part));
+              const Message& message, std::string fix, StatementPart part = {}) const {
+    values.report(prim, property, severity, rule, message, std::move(fix), std::move(part));
   }
   void not_read(const stage::Prim& prim, std::string property, std::string why) {
     scene.not_read.push_back({prim.path(), std::move(property), std::move(why)});

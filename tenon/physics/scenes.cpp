@@ -201,8 +201,9 @@ OwnerScene owner_scene(const ReadState& state, const stage::Prim& prim, Index fa
   if (!scene) {
     state.values.report_target(prim, state.tokens.simulation_owner, targets.front(),
                                Severity::Error, "scene.owner-missing",
-                               "physics:simulationOwner names <" + targets.front().str() +
-                                   ">, which is not a PhysicsScene; it is not simulated",
+                               "physics:simulationOwner names " +
+                                   named(targets.front(), RelatedRole::Target) +
+                                   ", which is not a PhysicsScene; it is not simulated",
                                "name a PhysicsScene, or none");
     return {fallback, false};
   }

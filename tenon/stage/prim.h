@@ -99,7 +99,7 @@ class Prim {
   std::vector<SpecSite> spec_stack() const;
   /// A diagnostic with the place of the strongest spec, or of the strongest that says what `part`
   /// names.
-  Diagnostic located(Severity severity, std::string rule, std::string message,
+  Diagnostic located(Severity severity, std::string rule, const Message& message,
                      StatementPart part = {}) const;
 
  private:

@@ -185,12 +185,12 @@ std::vector<SpecSite> Prim::spec_stack() const {
   return result;
 }
 
-Diagnostic Prim::located(Severity severity, std::string rule, std::string message,
+Diagnostic Prim::located(Severity severity, std::string rule, const Message& message,
                          StatementPart part) const {
   Diagnostic diagnostic;
   diagnostic.severity = severity;
   diagnostic.rule = std::move(rule);
-  diagnostic.message = std::move(message);
+  diagnostic.say(message);
   diagnostic.prim = path().str();
   if (data_ != nullptr && !data_->index->opinions().empty()) {
     const std::vector<SpecSite> sites = spec_stack();

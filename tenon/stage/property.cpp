@@ -33,19 +33,19 @@ std::vector<SpecSite> Property::spec_stack() const {
   return prim_ == nullptr ? std::vector<SpecSite>() : property_sites(*prim_, name_);
 }
 
-Diagnostic Property::located(Severity severity, std::string rule, std::string message,
+Diagnostic Property::located(Severity severity, std::string rule, const Message& message,
                              StatementPart part) const {
   Diagnostic diagnostic;
   diagnostic.severity = severity;
   diagnostic.rule = std::move(rule);
-  diagnostic.message = std::move(message);
+  diagnostic.say(message);
   diagnostic.part = std::move(part);
   return located_property(prim_, path(), name_, std::move(diagnostic));
 }
 
-Diagnostic Property::located_target(Severity severity, std::string rule, std::string message,
+Diagnostic Property::located_target(Severity severity, std::string rule, const Message& message,
                                     Path target) const {
-  Diagnostic diagnostic = located(severity, std::move(rule), std::move(message));
+  Diagnostic diagnostic = located(severity, std::move(rule), message);
   if (prim_ != nullptr) {
     place_target(*stage_, *prim_, path(), target, diagnostic);
   }

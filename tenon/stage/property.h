@@ -29,10 +29,10 @@ class Property {
   /// Layer, spec path and spec of every opinion, strongest first.
   std::vector<SpecSite> spec_stack() const;
   /// A diagnostic with the place of the strongest opinion (of the prim's when none is authored).
-  Diagnostic located(Severity severity, std::string rule, std::string message,
+  Diagnostic located(Severity severity, std::string rule, const Message& message,
                      StatementPart part = {}) const;
   /// The same with the place of one of its connections or targets, given in the stage's namespace.
-  Diagnostic located_target(Severity severity, std::string rule, std::string message,
+  Diagnostic located_target(Severity severity, std::string rule, const Message& message,
                             Path target) const;
 
  protected:

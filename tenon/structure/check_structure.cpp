@@ -27,11 +27,11 @@ using layer::Spec;
 using layer::SpecKind;
 
 Diagnostic finding(Severity severity, const char* rule, const Layer& layer, Path path,
-                   std::string message, std::string fix, StatementPart part = {}) {
+                   const Message& message, std::string fix, StatementPart part = {}) {
   Diagnostic found;
   found.severity = severity;
   found.rule = rule;
-  found.message = std::move(message);
+  found.say(message);
   found.fix = std::move(fix);
   layer::place_finding(found, layer, path, std::move(part));
   found.line = std::max(found.line, 1U);
@@ -75,10 +75,9 @@ class FileChecker {
   }
 
  private:
-  void add(Severity severity, const char* rule, const Layer& layer, Path path, std::string message,
-           std::string fix, StatementPart part = {}) {
-    found_.add(
-        finding(severity, rule, layer, path, std::move(message), std::move(fix), std::move(part)));
+  void add(Severity severity, const char* rule, const Layer& layer, Path path,
+           const Message& message, std::string fix, StatementPart part = {}) {
+    found_.add(finding(severity, rule, layer, path, message, std::move(fix), std::move(part)));
   }
 
   /// Types of prims, which overs do not repeat, instances, and which files arcs lead to.
@@ -189,7 +188,7 @@ class FileChecker {
     for (Path at = path.strip_variants().parent(); at.is_prim(); at = at.parent()) {
       if (instances_.contains(at) && root_scope(role).empty()) {
         add(Severity::Error, "structure.below-instance", layer, path,
-            "<" + at.str() + "> is an instance: opinions below it are not composed",
+            named(at) + " is an instance: opinions below it are not composed",
             "author them in the file of the instances, or let the prim be no instance");
         break;
       }
@@ -346,7 +345,8 @@ Diagnostics check_variant(const stage::Stage& stage, const std::string& variant)
                                           Severity::Error, "structure.dangling-target", "", target)
                                     : prim.attribute(name).located_target(
                                           Severity::Error, "structure.dangling-target", "", target);
-          dangling.message = name.str() + " names <" + target.str() + ">, which is not there";
+          dangling.say(name.str() + " names " + named(target, RelatedRole::Target) +
+                       ", which is not there");
           dangling.fix = "author the target in the file that defines the prim";
           found.add(std::move(dangling));
         }

@@ -156,8 +156,8 @@ class Outputs(unittest.TestCase):
         self.assertEqual(set(answer["diagnostics"][0]),
                          {"severity", "rule", "message", "file", "line", "column",
                           "endLine", "endColumn", "prim",
-                          "property", "fix", "variants", "numbers", "engines", "autofix",
-                          "suggestedFix", "suppressed"})
+                          "property", "fix", "related", "variants", "numbers", "engines",
+                          "autofix", "suggestedFix", "suppressed"})
         self.assertEqual(answer["diagnostics"][0]["numbers"], "S-45, M-19")
         self.assertEqual(answer["summary"], {"errors": 0, "warnings": 1, "infos": 0, "fixable": 0,
                                              "suggested": 0, "suppressed": 0})

@@ -115,7 +115,8 @@ class Contract(unittest.TestCase):
         finding = self.json("cat", bad, "-o", self.folder / "x.usda", code=2)["diagnostics"][0]
         self.assertEqual((finding["severity"], finding["line"]), ("error", 5))
         self.assertEqual(set(finding), {"severity", "rule", "message", "file", "line", "column",
-                                        "endLine", "endColumn", "prim", "property", "fix"})
+                                        "endLine", "endColumn", "prim", "property", "fix",
+                                        "related"})
         self.assertFalse((self.folder / "x.usda").exists())
 
     def test_a_missing_reference_is_a_finding_and_the_rest_opens(self):

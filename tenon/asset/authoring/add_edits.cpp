@@ -24,7 +24,7 @@ namespace {
 using AddedEdits = std::vector<AssetEdit>;
 using Verdict = AssetEdit::Kind;
 
-Error bad_option(Path prim, const std::string& message, const std::string& fix,
+Error bad_option(Path prim, const Message& message, const std::string& fix,
                  const std::string& rule = "edit.bad-argument") {
   return Error(ErrorCode::Invalid, message).with_prim(prim.str()).with_rule(rule).with_fix(fix);
 }
@@ -324,7 +324,8 @@ class Addition {
                         "name its bodies: " + none, "edit.no-body");
     }
     if (body0 == body1) {
-      return bad_option(wanted_.prim, "both sides of the joint are <" + body0.path().str() + ">",
+      return bad_option(wanted_.prim,
+                        "both sides of the joint are " + named(body0.path(), RelatedRole::Body),
                         "name two bodies: " + none, "edit.no-body");
     }
     const auto moves = [](const stage::Prim& prim) {
@@ -337,10 +338,10 @@ class Addition {
     if (moves(body0) || moves(body1)) {
       return {};
     }
-    const std::string fixed = (body1 ? body1 : body0).path().str();
-    return bad_option(wanted_.prim,
-                      "<" + fixed + "> is not a body: the joint would connect two static objects",
-                      "make it one first: tenon add ASSET " + fixed + "=body", "edit.no-body");
+    const Path fixed = (body1 ? body1 : body0).path();
+    return bad_option(
+        wanted_.prim, named(fixed) + " is not a body: the joint would connect two static objects",
+        "make it one first: tenon add ASSET " + fixed.str() + "=body", "edit.no-body");
   }
 
   Result<void> add_frames() {

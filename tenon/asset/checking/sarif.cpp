@@ -8,6 +8,7 @@
 // that a baseline knows stay in the log, marked as suppressed.
 #include "tenon/asset/checking/sarif.h"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -98,6 +99,18 @@ Json sarif_location(const Diagnostic& d, formats::CharacterColumns columns) {
   return location;
 }
 
+/// What else a finding is about; its message says as what.
+Json sarif_related(const RelatedPrim& related) {
+  Diagnostic place;
+  place.file = related.file;
+  place.line = related.line;
+  place.prim = related.path.substr(0, related.path.find('.'));
+  place.property = related.path.substr(std::min(place.prim.size() + 1, related.path.size()));
+  Json location = sarif_location(place, {});
+  location["message"] = {{"text", role_name(related.role)}};
+  return location;
+}
+
 Json sarif_result(const ReportedFinding& reported, formats::CharacterColumns columns,
                   std::size_t rule_index) {
   const Diagnostic& d = reported.finding.diagnostic;
@@ -108,6 +121,9 @@ Json sarif_result(const ReportedFinding& reported, formats::CharacterColumns col
   result["message"] = {{"text", d.fix.empty() ? d.message : d.message + "; " + d.fix}};
   const Json location = sarif_location(d, columns);
   result["locations"] = location.empty() ? Json::array() : Json::array({location});
+  for (const RelatedPrim& related : d.related) {
+    result["relatedLocations"].push_back(sarif_related(related));
+  }
   Sha256 digest;
   digest.update(fingerprint_of(reported.finding, "."));
   result["partialFingerprints"] = {{"tenon/1", digest.hex_digest()}};

@@ -84,7 +84,7 @@ Result<void> check_new_name(const AllFiles& files, const AssetEdit& edit) {
   const Path to = edit.object.parent().child(Token(edit.value));
   for (const auto& stage : files.stages) {
     if (stage->prim(to)) {
-      return Error(ErrorCode::Invalid, "<" + to.str() + "> is there already")
+      return Error(ErrorCode::Invalid, named(to) + " is there already")
           .with_prim(edit.object.str())
           .with_rule("edit.prim-exists")
           .with_fix("choose another name");

@@ -19,12 +19,10 @@ namespace tenon {
 namespace {
 
 struct Reason {
-  std::string why;
+  Message why;
   std::string fix;
 };
 using MaybeReason = std::optional<Reason>;
-
-std::string in_angles(Path path) { return "<" + path.str() + ">"; }
 
 Token property_of(const AssetEdit& edit) {
   return edit.is_about_api() ? Token() : edit.object.name();
@@ -34,6 +32,9 @@ bool begins(const AssetEdit& edit, std::string_view head) {
   return property_of(edit).view().starts_with(head);
 }
 
+/// The prim that the finding is about itself.
+std::string in_brackets(const stage::Prim& prim) { return "<" + prim.path().str() + ">"; }
+
 template <class Object>
 const Object* object_at(const std::vector<Object>& objects, Path path) {
   const auto found = std::find_if(objects.begin(), objects.end(),
@@ -41,12 +42,27 @@ const Object* object_at(const std::vector<Object>& objects, Path path) {
   return found == objects.end() ? nullptr : &*found;
 }
 
+/// The sentence of a finding, with what it is about.
+Message said(const Diagnostic& finding) {
+  Message message = finding.message;
+  for (const RelatedPrim& related : finding.related) {
+    message.about(Path::from(related.path), related.role);
+  }
+  return message;
+}
+
+bool is_about(const Diagnostic& finding, const std::string& prim) {
+  return finding.prim == prim ||
+         std::any_of(finding.related.begin(), finding.related.end(),
+                     [&](const RelatedPrim& related) { return related.path == prim; });
+}
+
 /// What readers say of the property itself.
 MaybeReason finding_of_property(const PhysicsView& view, const AssetEdit& edit) {
   for (const Diagnostic& finding : view.findings) {
     if (!edit.is_about_api() && finding.prim == edit.object.prim().str() &&
         finding.property == property_of(edit).view()) {
-      return Reason{finding.message, finding.fix};
+      return Reason{said(finding), finding.fix};
     }
   }
   return std::nullopt;
@@ -66,12 +82,12 @@ MaybeReason finding_of_winner(const PhysicsView& view, const AssetEdit& edit) {
   const std::string prim = edit.object.prim().str();
   for (const Diagnostic& finding : view.findings) {
     for (const Replaces& replaces : kReplacing) {
-      const bool same =
-          finding.prim == prim || finding.message.find("<" + prim + ">") != std::string::npos;
+      const bool same = is_about(finding, prim);
       const bool about = begins(edit, replaces.subjects[0]) || begins(edit, replaces.subjects[1]);
       if (finding.rule == replaces.rule && same && about) {
-        const std::string winner = finding.prim == prim ? "" : "<" + finding.prim + ">: ";
-        return Reason{winner + finding.message, "with --all-engines both are edited"};
+        const Message winner =
+            finding.prim == prim ? Message("") : named(Path::from(finding.prim)) + ": ";
+        return Reason{winner + said(finding), "with --all-engines both are edited"};
       }
     }
   }
@@ -107,8 +123,7 @@ std::vector<Path> shapes_below(const stage::Prim& prim) {
 
 std::string type_words(const stage::Prim& prim) {
   const std::string type = prim.type_name().str();
-  return in_angles(prim.path()) + " is " +
-         (type.empty() ? "a prim without a type" : "of type " + type);
+  return in_brackets(prim) + " is " + (type.empty() ? "a prim without a type" : "of type " + type);
 }
 
 /// Colliders are shapes; of those, meshes alone have an approximation.
@@ -156,7 +171,7 @@ MaybeReason no_mass(const PhysicsView& view, const stage::Prim& prim, const Asse
   }
   const stage::Prim body = body_of(view, prim);
   if (!body) {
-    return Reason{in_angles(prim.path()) + " belongs to no body, and what stands still has no mass",
+    return Reason{in_brackets(prim) + " belongs to no body, and what stands still has no mass",
                   "apply PhysicsRigidBodyAPI to it or to a prim above it"};
   }
   const bool is_body = body.path() == prim.path();
@@ -166,13 +181,13 @@ MaybeReason no_mass(const PhysicsView& view, const stage::Prim& prim, const Asse
                   "tenon set --clear " + prim.path().str() + ".physics:mass"};
   }
   if (!is_body && is_collider && is_authored(body, "physics:mass")) {
-    return Reason{
-        "the mass of the body " + in_angles(body.path()) + " is authored and counts alone",
-        "set it there, or clear it: --clear " + body.path().str() + ".physics:mass"};
+    return Reason{"the mass of the body " + named(body.path(), RelatedRole::Body) +
+                      " is authored and counts alone",
+                  "set it there, or clear it: --clear " + body.path().str() + ".physics:mass"};
   }
   if (!is_body && !is_collider) {
-    return Reason{in_angles(prim.path()) + " is neither a body nor a collider",
-                  "set it on the body " + in_angles(body.path())};
+    return Reason{in_brackets(prim) + " is neither a body nor a collider",
+                  "set it on the body " + in_brackets(body)};
   }
   return std::nullopt;
 }
@@ -184,7 +199,7 @@ MaybeReason no_material(const PhysicsView& view, const stage::Prim& prim, const 
   for (const Path target : prim.relationship(property_of(edit)).targets()) {
     const stage::Prim material = view.stage->prim(target);
     if (!material || !material.has_api("PhysicsMaterialAPI")) {
-      return Reason{in_angles(target) + " is no material of the physics",
+      return Reason{named(target, RelatedRole::Target) + " is no material of the physics",
                     "apply it: --apply " + target.str() + "=PhysicsMaterialAPI"};
     }
   }
@@ -196,9 +211,8 @@ MaybeReason no_pair(const PhysicsView&, const stage::Prim& prim, const AssetEdit
   if (property_of(edit) != "physics:filteredPairs") {
     return std::nullopt;
   }
-  return Reason{
-      "no collider of " + in_angles(prim.path()) + " could touch one of the others before",
-      "tenon explain ASSET A B tells why two prims do not touch"};
+  return Reason{"no collider of " + in_brackets(prim) + " could touch one of the others before",
+                "tenon explain ASSET A B tells why two prims do not touch"};
 }
 
 MaybeReason no_object(const PhysicsView& view, const stage::Prim& prim, const AssetEdit& edit) {
@@ -218,7 +232,7 @@ MaybeReason finding_of_prim(const PhysicsView& view, const AssetEdit& edit) {
   for (const Diagnostic& finding : view.findings) {
     if (finding.prim == edit.object.prim().str() && finding.property.empty() &&
         finding.severity == Severity::Error) {
-      return Reason{finding.message, finding.fix};
+      return Reason{said(finding), finding.fix};
     }
   }
   return std::nullopt;
@@ -238,7 +252,7 @@ Reason reason(const PhysicsView& view, const AssetEdit& edit) {
   }
   return finding_of_prim(view, edit)
       .value_or(Reason{
-          "nothing that engines receive of " + in_angles(edit.object.prim()) + " depends on it",
+          "nothing that engines receive of <" + edit.object.prim().str() + ">" + " depends on it",
           "tenon explain ASSET " + edit.object.prim().str() + " tells what counts"});
 }
 
@@ -248,9 +262,9 @@ Diagnostic no_effect_finding(const PhysicsView& view, const AssetEdit& edit, boo
   Reason found = reason(view, edit);
   Diagnostic finding =
       view.stage->prim(edit.object.prim()).located(Severity::Error, "edit.no-effect", "");
-  finding.message = (edit.is_about_api() ? edit.api.str() : edit.object.name().str()) +
-                    " changes nothing that engines receive" +
-                    (in_view_alone ? " under Physics=" + view.variant : "") + ": " + found.why;
+  finding.say((edit.is_about_api() ? edit.api.str() : edit.object.name().str()) +
+              " changes nothing that engines receive" +
+              (in_view_alone ? " under Physics=" + view.variant : "") + ": " + found.why);
   finding.fix = std::move(found.fix);
   finding.property = property_of(edit).str();
   return finding;

@@ -74,9 +74,10 @@ class SiteSearch {
   }
 
   Error over_arc(const std::string& layer, Path path) const {
-    return Error(ErrorCode::Invalid, "<" + prim_.str() +
-                                         "> comes over an arc of a prim above it, from <" +
-                                         path.str() + "> of " + shown_path(layer))
+    Message message = "<" + prim_.str() + "> comes over an arc of a prim above it, from <" +
+                      path.str() + "> of " + shown_path(layer);
+    message.about(path, RelatedRole::Prim, layer);
+    return Error(ErrorCode::Invalid, message)
         .with_prim(prim_.str())
         .with_rule("edit.over-arc")
         .with_fix("edit that file: tenon where names all that define it");

@@ -66,7 +66,7 @@ Result<void> check_no_arc_leads_to(const layer::Layer& layer, Path prim) {
         leads_to<Path>(*spec, fields::inheritPaths, prim) ||
         leads_to<Path>(*spec, fields::specializes, prim)) {
       return Error(ErrorCode::Invalid,
-                   "<" + entry.path.str() + "> is made of <" + prim.str() + "> by an arc")
+                   named(entry.path) + " is made of <" + prim.str() + "> by an arc")
           .in_file(layer.identifier())
           .at(spec->line, 1)
           .with_prim(prim.str())

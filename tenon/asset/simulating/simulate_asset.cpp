@@ -224,7 +224,9 @@ void report_passages(const SimulatedAsset& asset, Diagnostics& diagnostics) {
     finding.severity = Severity::Warning;
     finding.rule = "sim.passed-through";
     finding.prim = event.prim.str();
-    finding.message = "at " + shortest(event.time) + " s the body " + event.what;
+    Message message = "at " + shortest(event.time) + " s the body " + event.what;
+    message.about(event.other, RelatedRole::Collider);
+    finding.say(message);
     finding.fix = "give a smaller --dt, so that it moves by less than its own size in a step";
     diagnostics.add(std::move(finding));
   }

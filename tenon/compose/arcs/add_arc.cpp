@@ -81,14 +81,14 @@ bool closes_cycle(const Indexer& indexer, const Arc& arc, Site site) {
 void report_cycle(Indexer& indexer, const Arc& arc, const Site& site) {
   constexpr std::size_t kArcs = 20;   // told at most
   constexpr std::size_t kText = 800;  // bytes, after which no more are reported
-  std::string chain = quoted(*site.layer_stack->root, site.path);
+  Message chain = named_in(*site.layer_stack->root, site.path);
   std::string_view word = verb(arc.kind);
   std::size_t length = 0;
   for (FrameCursor at{&indexer.graph, arc.parent, indexer.frame}; !at.at_end(); at.to_parent()) {
     const Node& node = (*at.graph)[at.node];
-    chain = quoted(*node.layer_stack->root, node.path) + " " + std::string(word) + " " + chain;
+    chain = named_in(*node.layer_stack->root, node.path) + " " + std::string(word) + " " + chain;
     word = verb(at.arc());
-    if (++length > kArcs || chain.size() > kText) {
+    if (++length > kArcs || chain.text().size() > kText) {
       chain = "... " + chain;
       break;
     }

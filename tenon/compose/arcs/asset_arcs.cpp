@@ -48,9 +48,9 @@ class AssetArcAdder {
  private:
   Path site() const { return indexer_.graph[node_].path; }
 
-  void report(std::string_view error_class, const AssetArc& item, std::string message,
+  void report(std::string_view error_class, const AssetArc& item, const Message& message,
               std::string fix) {
-    indexer_.report(error_class, item.layer.get(), site(), std::move(message), std::move(fix),
+    indexer_.report(error_class, item.layer.get(), site(), message, std::move(fix),
                     authored_item(item, site(), kind_));
   }
 
@@ -60,7 +60,7 @@ class AssetArcAdder {
       return true;
     }
     report(error_class::kInvalidPrimPath, item,
-           "the " + std::string(noun(kind_)) + " leads to " + quoted(path) +
+           "the " + std::string(noun(kind_)) + " leads to " + named(path) +
                ", which is not an absolute prim path without variants",
            "name a prim by its absolute path");
     return false;
@@ -197,7 +197,7 @@ void eval_unresolved_prim_path(Indexer& indexer, NodeId node) {
   AuthoredArc item = introducing_item(indexer, node, parent_path);
   indexer.report(error_class::kUnresolvedPrimPath, item.layer, parent_path,
                  "the " + std::string(noun(graph[node].arc)) + " leads to " +
-                     quoted(*graph[node].layer_stack->root, missing) + ", which does not exist",
+                     named_in(*graph[node].layer_stack->root, missing) + ", which does not exist",
                  "correct the prim path", std::move(item.part));
 }
 

@@ -112,7 +112,7 @@ void add_class_arcs(Indexer& indexer, NodeId node, ArcKind kind, Token field) {
     if (!arc.path.is_prim() || arc.path.has_variants()) {
       indexer.report(
           error_class::kInvalidPrimPath, arc.layer, site.path,
-          "the class path " + quoted(arc.path) + " is not an absolute prim path without variants",
+          "the class path " + named(arc.path) + " is not an absolute prim path without variants",
           "name a prim by its absolute path", layer::item_part(field, arc.path));
     } else {
       ClassArcRequest request;

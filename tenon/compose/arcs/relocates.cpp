@@ -43,7 +43,7 @@ void report_opinions_at_source(Indexer& indexer, const Site& source) {
   for (const StackedLayer& stacked : source.layer_stack->layers) {
     if (stacked.layer->has(source.path)) {
       indexer.report(error_class::kOpinionAtRelocationSource, stacked.layer.get(), source.path,
-                     "opinions on " + quoted(source.path) + " are ignored: it is relocated",
+                     "opinions on " + named(source.path) + " are ignored: it is relocated",
                      "move the opinions to the target of the relocate");
     }
   }
@@ -57,8 +57,8 @@ void report_prohibited(Indexer& indexer, const Node& prohibited) {
   indexer.report(error_class::kArcToProhibitedChild,
                  item.layer == nullptr ? parent.layer_stack->root.get() : item.layer, parent.path,
                  "the arc leads to " +
-                     quoted(*frame.requested.layer_stack->root, frame.requested.path) +
-                     ", which needs opinions of the relocated " + quoted(prohibited.path),
+                     named_in(*frame.requested.layer_stack->root, frame.requested.path) +
+                     ", which needs opinions of the relocated " + named(prohibited.path),
                  "point the arc at the target of the relocate", std::move(item.part));
 }
 

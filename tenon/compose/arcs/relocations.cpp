@@ -25,8 +25,8 @@ struct Relocate {
 
 using RelocatesBySource = std::map<Path, Relocate>;
 
-std::string describe(Path source, Path target) {
-  return "relocate of " + quoted(source) + " to " + quoted(target);
+Message describe(Path source, Path target) {
+  return "relocate of " + named(source) + " to " + named(target);
 }
 
 /// Why a path can be neither source nor target; nullptr when it can.
@@ -106,9 +106,9 @@ void drop_same_targets(RelocatesBySource& relocates, Diagnostics& errors) {
     if (sources.size() < 2) {
       continue;
     }
-    std::string list;
+    Message list = "";
     for (const Path source : sources) {
-      list += (list.empty() ? "" : ", ") + quoted(source);
+      list += (list.text().empty() ? "" : ", ") + named(source);
     }
     errors.add(composition_error(
         error_class::kInvalidSameTargetRelocations, Severity::Error,
@@ -116,7 +116,7 @@ void drop_same_targets(RelocatesBySource& relocates, Diagnostics& errors) {
          Path::absolute_root(),
          {},
          relocate_part(sources.front())},
-        "several prims are relocated to " + quoted(target) + ": " + list + "; all are ignored",
+        "several prims are relocated to " + named(target) + ": " + list + "; all are ignored",
         "keep one of the relocates"));
     for (const Path source : sources) {
       relocates.erase(source);

@@ -170,13 +170,13 @@ struct IndexCache::State {
   }
 
   void report_work(PrimIndex& index) const {
-    const std::string costly = arc_costs.most_costly(work.done());
+    const Message costly = arc_costs.most_costly(work.done());
     Diagnostic found = composition_error(
         error_class::kWorkExceeded, Severity::Error,
         {root_stack->root.get(), index.path, index.path},
         "composition takes more than " + std::to_string(work.most()) +
             " units of work (kComposeWork); arcs from here on are skipped" +
-            (costly.empty() ? "" : "; " + costly),
+            (costly.text().empty() ? "" : "; " + costly),
         "reduce the arcs that multiply with each other, make instances of what they bring in, or "
         "allow more with --max-work");
     index.make_extras().errors.add(std::move(found));

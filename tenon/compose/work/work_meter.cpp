@@ -62,7 +62,7 @@ void WorkMeter::fold_costs() {
   most_costs_ = std::max<std::size_t>(most_costs_, 2 * costs_.size());
 }
 
-std::string ArcCosts::most_costly(std::size_t all_units) const {
+Message ArcCosts::most_costly(std::size_t all_units) const {
   ArcCost most;
   for (const auto& [place, units] : units_) {
     const ArcCost cost{place, units};
@@ -71,10 +71,10 @@ std::string ArcCosts::most_costly(std::size_t all_units) const {
     }
   }
   if (most.place.layer_stack == nullptr) {
-    return {};
+    return "";
   }
   return "the " + std::string(arcs_of(most.place.kind)) + " of " +
-         quoted(*most.place.layer_stack->root, most.place.path) + " took " +
+         named_in(*most.place.layer_stack->root, most.place.path) + " took " +
          std::to_string(most.units) + " of " + std::to_string(all_units) + " units";
 }
 

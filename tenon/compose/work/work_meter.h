@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/message.h"
 #include "tenon/base/path.h"
 #include "tenon/compose/arcs/arc.h"
 
@@ -116,7 +117,7 @@ class ArcCosts {
     }
   }
   /// "the references of @layer@</prim> took 12 of 34 units"; empty when nothing is known.
-  std::string most_costly(std::size_t all_units) const;
+  Message most_costly(std::size_t all_units) const;
 
  private:
   std::unordered_map<ArcPlace, std::size_t, ArcPlaceHash> units_;

@@ -38,17 +38,17 @@ AuthoredGroup read_group(const ReadState& state, const PhysicsPrim& found,
   group.merge =
       values.get<std::string>(found.prim, state.tokens.merge_group).value_or(std::string());
   for (const Path& target : state.targets(found.prim, state.tokens.filtered_groups)) {
-    const auto named = std::lower_bound(paths.begin(), paths.end(), target);
-    if (named == paths.end() || !(*named == target)) {
+    const auto group_at = std::lower_bound(paths.begin(), paths.end(), target);
+    if (group_at == paths.end() || !(*group_at == target)) {
       // S-80
       values.report_target(found.prim, state.tokens.filtered_groups, target, Severity::Warning,
                            "group.unknown-target",
-                           "physics:filteredGroups names <" + target.str() +
-                               ">, which is not a collision group; it is ignored",
+                           "physics:filteredGroups names " + named(target, RelatedRole::Target) +
+                               ", which is not a collision group; it is ignored",
                            "name a PhysicsCollisionGroup");
       continue;
     }
-    group.filtered.push_back(static_cast<Index>(named - paths.begin()));
+    group.filtered.push_back(static_cast<Index>(group_at - paths.begin()));
   }
   return group;
 }

@@ -165,11 +165,11 @@ class PairFilter {
     speaks(PairRule::FilteredPair, found.path);
     for (const Path& target : state_.targets(found.prim, name)) {
       if (!state_.stage.prim(target)) {
-        state_.values.report_target(found.prim, name, target, Severity::Warning,
-                                    "filter.target-missing",
-                                    "physics:filteredPairs names <" + target.str() +
-                                        ">, which does not exist; it is ignored",
-                                    "name an existing prim");
+        state_.values.report_target(
+            found.prim, name, target, Severity::Warning, "filter.target-missing",
+            "physics:filteredPairs names " + named(target, RelatedRole::Target) +
+                ", which does not exist; it is ignored",
+            "name an existing prim");
         continue;
       }
       const Path meant = state_.walk.near(found, target);

@@ -167,8 +167,8 @@ void bind_materials(ReadState& state) {
     if (binding.binding_api_missing) {
       // S-69
       state.report(found.prim, Severity::Warning, "material.binding-api-missing",
-                   "<" + binding.material.str() +
-                       "> is bound without MaterialBindingAPI applied; it counts here, not in "
+                   named(binding.material, RelatedRole::Material) +
+                       " is bound without MaterialBindingAPI applied; it counts here, not in "
                        "OpenUSD",
                    "apply MaterialBindingAPI to the prim that binds it");
     }

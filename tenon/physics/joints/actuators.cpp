@@ -88,13 +88,13 @@ class ActuatorReader {
     if (targets.size() == 1 && is_other_target(prim.prim_at(targets.front()))) {
       return std::nullopt;  // likewise
     }
-    state_.values.report_target(prim, tokens_.target, targets.empty() ? Path() : targets.front(),
-                                Severity::Error, "actuator.target-missing",
-                                targets.empty()
-                                    ? "mjc:target names nothing; the actuator is skipped"
-                                    : "mjc:target names <" + targets.front().str() +
-                                          ">, which is not a joint; the actuator is skipped",
-                                "name one joint in mjc:target");
+    state_.values.report_target(
+        prim, tokens_.target, targets.empty() ? Path() : targets.front(), Severity::Error,
+        "actuator.target-missing",
+        targets.empty() ? "mjc:target names nothing; the actuator is skipped"
+                        : "mjc:target names " + named(targets.front(), RelatedRole::Target) +
+                              ", which is not a joint; the actuator is skipped",
+        "name one joint in mjc:target");
     return std::nullopt;
   }
 
@@ -142,8 +142,9 @@ class ActuatorReader {
       return;
     }
     state_.report(prim, Severity::Info, "actuator.replaces-drive",
-                  "the actuator's gains and force limit replace those of the drive on <" +
-                      joint.path.str() + ">; the drive's targets are its control",
+                  "the actuator's gains and force limit replace those of the drive on " +
+                      named(joint.path, RelatedRole::Joint) +
+                      "; the drive's targets are its control",
                   "remove one of the two to say which counts");
     drive.target_position = same->target_position;
     drive.target_velocity = same->target_velocity;

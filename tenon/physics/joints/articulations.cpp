@@ -44,8 +44,8 @@ class ArticulationReader {
     if (found.articulation_root != kNone) {
       // S-113
       drop(found, "articulation.nested",
-           "an articulation root is below <" +
-               state_.walk.prims[found.articulation_root].path.str() + ">",
+           "an articulation root is below " +
+               named(state_.walk.prims[found.articulation_root].path, RelatedRole::Articulation),
            "remove the inner PhysicsArticulationRootAPI");
       return;
     }
@@ -66,10 +66,10 @@ class ArticulationReader {
  private:
   static StatementPart root_part() { return api_part("PhysicsArticulationRootAPI"); }
 
-  void drop(const PhysicsPrim& found, const char* rule, std::string why, std::string fix) const {
+  void drop(const PhysicsPrim& found, const char* rule, const Message& why, std::string fix) const {
     state_.report(found.prim, Severity::Error, rule,
-                  std::move(why) + "; its bodies are simulated without an articulation",
-                  std::move(fix), root_part());
+                  why + "; its bodies are simulated without an articulation", std::move(fix),
+                  root_part());
   }
 
   const Joint& joint(Index i) const { return state_.scene.joints[i]; }
@@ -189,7 +189,8 @@ class ArticulationReader {
     for (const Index body : component) {
       if (taken_[body] != 0) {
         drop(found, "articulation.shared-link",
-             "<" + state_.scene.bodies[body].path.str() + "> belongs to another articulation",
+             named(state_.scene.bodies[body].path, RelatedRole::Body) +
+                 " belongs to another articulation",
              "leave one PhysicsArticulationRootAPI for bodies that are jointed together");
         return false;
       }

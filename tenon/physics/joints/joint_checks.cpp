@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tenon/base/text/rounded_text.h"
+#include "tenon/scene/about_bodies.h"
 
 namespace tenon::physics {
 namespace {
@@ -81,8 +82,9 @@ void check_limits(const ReadState& state, const stage::Prim& prim, const Joint& 
                                 ? (below ? "minDistance" : "maxDistance")
                                 : (below ? "lower limit" : "upper limit");
   state.report(prim, Severity::Warning, "joint.outside-limit",
-               "the initial " + what + " " + text(at / unit) + " violates the " + bound + " " +
-                   text((below ? joint.lower : joint.upper) / unit),
+               about_bodies(state.scene, joint,
+                            "the initial " + what + " " + text(at / unit) + " violates the " +
+                                bound + " " + text((below ? joint.lower : joint.upper) / unit)),
                "move the bodies or widen the limit");
 }
 
@@ -123,12 +125,14 @@ void check_joint_start(const ReadState& state, const stage::Prim& prim, const Jo
                         in_world(state, joint.body1, joint.frame1);
   const Misfit misfit = misfit_of(joint, relative);
   if (misfit.gap > kGap || misfit.angle > kAngle) {
-    state.report(
-        prim, Severity::Warning, "joint.frames-apart",
-        "the frames of the joint are " + text(misfit.gap / state.units.length) + " units and " +
-            text(misfit.angle / kRadians) + " degrees apart at the start; " +
-            (stays(state, joint) ? "the body is fixed in place" : "the bodies are moved together"),
-        "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
+    state.report(prim, Severity::Warning, "joint.frames-apart",
+                 about_bodies(state.scene, joint,
+                              "the frames of the joint are " +
+                                  text(misfit.gap / state.units.length) + " units and " +
+                                  text(misfit.angle / kRadians) + " degrees apart at the start; " +
+                                  (stays(state, joint) ? "the body is fixed in place"
+                                                       : "the bodies are moved together")),
+                 "correct physics:localPos0, localRot0, localPos1, localRot1 or the bodies' poses");
   }
   if (joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
       joint.kind == JointKind::Distance) {

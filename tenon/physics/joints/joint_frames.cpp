@@ -13,11 +13,11 @@ namespace tenon::physics {
 namespace {
 
 void drop(const ReadState& state, const stage::Prim& joint, Token name, Path target,
-          const char* rule, std::string why, std::string fix) {
+          const char* rule, const Message& why, std::string fix) {
   const bool world = state.readings.missing_target == MissingTarget::World;
-  state.values.report_target(
-      joint, name, target, Severity::Error, rule,
-      std::move(why) + (world ? "; the world is used" : "; the joint is skipped"), std::move(fix));
+  state.values.report_target(joint, name, target, Severity::Error, rule,
+                             why + (world ? "; the world is used" : "; the joint is skipped"),
+                             std::move(fix));
 }
 
 /// The prim that a side names; an invalid one when it is unusable (S-87), reported.
@@ -28,7 +28,8 @@ stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token n
   }
   if (!target.is_prim_or_root()) {
     drop(state, joint, name, target, "joint.target-not-prim",
-         name.str() + " names <" + target.str() + ">, which is not a prim", "name a prim");
+         name.str() + " names " + named(target, RelatedRole::Target) + ", which is not a prim",
+         "name a prim");
     return {};
   }
   const stage::Prim prim =
@@ -37,7 +38,7 @@ stage::Prim find_target(const ReadState& state, const PhysicsPrim& from, Token n
       prim.is_valid() && prim.is_active() && prim.is_defined() && !prim.is_abstract();
   if (!there) {
     drop(state, joint, name, target, "joint.body-missing",
-         name.str() + " names <" + target.str() + ">, which does not exist",
+         name.str() + " names " + named(target, RelatedRole::Target) + ", which does not exist",
          "name an existing prim, or clear the relationship to attach to the world");
     return {};
   }

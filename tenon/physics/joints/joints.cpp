@@ -5,6 +5,7 @@
 #include "tenon/physics/joints/joint_frames.h"
 #include "tenon/physics/joints/joint_limits.h"
 #include "tenon/physics/read_state.h"
+#include "tenon/scene/about_bodies.h"
 
 namespace tenon::physics {
 namespace {
@@ -64,16 +65,19 @@ bool sides_fit(const ReadState& state, const stage::Prim& prim, const Joint& joi
   }
   if (joint.body0 == joint.body1) {
     state.report(prim, state.tokens.body1, Severity::Error, "joint.same-body",
-                 "both sides of the joint are the body <" +
-                     state.scene.bodies[*joint.body0].path.str() + ">; the joint is skipped",
+                 "both sides of the joint are the body " +
+                     named(state.scene.bodies[*joint.body0].path, RelatedRole::Body) +
+                     "; the joint is skipped",
                  "name two bodies");
     return false;
   }
   if (joint.body0 && joint.body1 &&
       state.scene.bodies[*joint.body0].scene != state.scene.bodies[*joint.body1].scene) {
-    state.report(prim, Severity::Error, "joint.across-scenes",
-                 "the bodies of the joint belong to different scenes; the joint is skipped",
-                 "give both bodies the same physics:simulationOwner");
+    state.report(
+        prim, Severity::Error, "joint.across-scenes",
+        about_bodies(state.scene, joint,
+                     "the bodies of the joint belong to different scenes; the joint is skipped"),
+        "give both bodies the same physics:simulationOwner");
     return false;
   }
   return true;

@@ -94,9 +94,10 @@ class MimicReader {
   std::optional<Coordinate> leader(const std::string& name, Dof dof,
                                    std::optional<Token> rotation) const {
     const std::vector<Path> targets = state_.targets(found_.prim, name);
-    std::string why = name + " names no joint";
+    Message why = name + " names no joint";
     if (!targets.empty()) {
-      why = name + " names <" + targets.front().str() + ">, which is not a joint of one axis";
+      why = name + " names " + named(targets.front(), RelatedRole::Target) +
+            ", which is not a joint of one axis";
       const std::uint32_t joint = state_.joint_at(state_.walk.near(found_, targets.front()));
       const std::optional<Dof> leads =
           joint == kNone ? std::nullopt : leading_dof(state_.scene.joints[joint], rotation);
@@ -107,8 +108,8 @@ class MimicReader {
         return Coordinate{joint, *leads};
       }
       if (joint != kNone && rotation && state_.scene.joints[joint].kind == JointKind::D6) {
-        why = name + " names <" + targets.front().str() + ">, which does not turn about " +
-              rotation->str() + " by itself";
+        why = name + " names " + named(targets.front(), RelatedRole::Target) +
+              ", which does not turn about " + rotation->str() + " by itself";
       }
     }
     state_.values.report_target(found_.prim, Token(name),

@@ -61,8 +61,8 @@ class SensorReader {
   }
 
  private:
-  void refuse(const PhysicsPrim& found, const char* rule, std::string message, std::string fix) {
-    state_.report(found.prim, Severity::Warning, rule, std::move(message) + "; it reads nothing",
+  void refuse(const PhysicsPrim& found, const char* rule, const Message& message, std::string fix) {
+    state_.report(found.prim, Severity::Warning, rule, message + "; it reads nothing",
                   std::move(fix));
   }
 
@@ -231,11 +231,11 @@ class SensorReader {
     return true;
   }
 
-  static std::string no_body(const stage::Prim& sensor) {
+  static Message no_body(const stage::Prim& sensor) {
     for (stage::Prim prim = sensor; prim.is_valid() && !prim.is_pseudo_root();
          prim = prim.parent()) {
       if (prim.has_api("PhysicsRigidBodyAPI")) {
-        return "the body <" + prim.path().str() + "> of the sensor is disabled";
+        return "the body " + named(prim.path(), RelatedRole::Body) + " of the sensor is disabled";
       }
     }
     return "no rigid body is at or above the sensor";
@@ -273,8 +273,9 @@ class SensorReader {
       sensor.joint = forest.bodies[*sensor.body].joint;
       if (!sensor.joint) {
         refuse(*state_.walk.find(sensor.path), "sensor.no-joint",
-               "no joint holds the body <" + state_.scene.bodies[*sensor.body].path.str() +
-                   "> of the force-torque sensor",
+               "no joint holds the body " +
+                   named(state_.scene.bodies[*sensor.body].path, RelatedRole::Body) +
+                   " of the force-torque sensor",
                "put the sensor below a body that a joint holds to another one or to the world");
       }
       return !sensor.joint;

@@ -117,10 +117,10 @@ void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& sai
       std::vector<Path> targets = targets_of(spec);
       const std::size_t count = targets.size();
       std::replace(targets.begin(), targets.end(), Path::absolute_root(), robot);
-      std::string dropped;
+      Path dropped;
       std::erase_if(targets, [&](Path target) {
         const bool outside = !target.has_prefix(robot);
-        dropped = outside ? target.str() : dropped;
+        dropped = outside ? target : dropped;
         return outside;
       });
       if (targets != targets_of(spec)) {
@@ -128,7 +128,8 @@ void drop_targets_outside(layer::Layer& content, Path robot, std::set<Path>& sai
       }
       if (targets.size() != count && said.insert(property).second) {
         diagnostics.add({Severity::Warning, "structure.target-outside",
-                         "a target names <" + dropped + ">, which does not exist; it is skipped",
+                         "a target names " + named(dropped, RelatedRole::Target) +
+                             ", which does not exist; it is skipped",
                          prim.str(), property.name().str(), "name a prim of the asset"});
       }
     }

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/base/message.h"
+
+#include <gtest/gtest.h>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/path.h"
+
+namespace tenon {
+namespace {
+
+TEST(Message, KeepsWhatItNames) {
+  const Path leader = Path::from("/World/J1");
+  const Message message = "the leader " + named(leader, RelatedRole::Joint) + " is disabled";
+  EXPECT_EQ(message.text(), "the leader </World/J1> is disabled");
+  ASSERT_EQ(message.related().size(), 1u);
+  EXPECT_EQ(message.related()[0].path, "/World/J1");
+  EXPECT_EQ(message.related()[0].role, RelatedRole::Joint);
+}
+
+TEST(Message, NamesEachOnceAndNothingRelative) {
+  const Path body = Path::from("/B");
+  Message message = named(body, RelatedRole::Body) + " and " + named(body, RelatedRole::Body) +
+                    " and " + named(Path::from("C")) + named(Path());
+  message.about(body, RelatedRole::Body);
+  EXPECT_EQ(message.text(), "</B> and </B> and <C><>");
+  EXPECT_EQ(message.related().size(), 1u);
+}
+
+TEST(Message, NamesPathsWithinLayers) {
+  const Message message = named(Path::from("/X"), RelatedRole::Prim, "a.usda");
+  EXPECT_EQ(message.text(), "@a.usda@</X>");
+  ASSERT_EQ(message.related().size(), 1u);
+  EXPECT_EQ(message.related()[0].file, "a.usda");
+}
+
+TEST(Message, GoesIntoFindings) {
+  Diagnostic finding;
+  finding.say("names " + named(Path::from("/A"), RelatedRole::Target));
+  EXPECT_EQ(finding.message, "names </A>");
+  ASSERT_EQ(finding.related.size(), 1u);
+  EXPECT_EQ(role_name(finding.related[0].role), "target");
+}
+
+}  // namespace
+}  // namespace tenon
