@@ -293,7 +293,9 @@ void check_joint_state(const Subject& subject, Reporter& report) {
 
 void check_physx_joint_api(const Subject& subject, Reporter& report) {
   for (const stage::Prim& prim : subject.prims) {
-    if (prim.has_api("PhysxJointAPI")) {
+    const bool has_newer =
+        prim.has_api("NewtonJointAPI") || !prim.api_instances("PhysxJointAxisAPI").empty();
+    if (prim.has_api("PhysxJointAPI") && !has_newer) {
       report.at(prim,
                 "PhysxJointAPI is applied; newer PhysX releases ignore its attributes silently",
                 "apply PhysxJointAxisAPI or NewtonJointAPI beside it",

@@ -28,6 +28,7 @@ how to correct it.
 - One page: `tenon explain RULE` prints it.
 - Skip a rule: `tenon check FILE --skip RULE`; only one: `--only RULE`, or the part before the dot.
 - Numbers such as S-83 are explained in [physics-conformance.md](../physics-conformance.md).
+- Scripts read fields, not messages: [findings.md](../findings.md) lists the fields of a finding.
 
 Made by `tests/check/check_pages.py --write` from the rules and `tests/check/kinds.txt`.
 """

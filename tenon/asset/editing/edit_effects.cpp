@@ -101,6 +101,20 @@ bool EditEffects::is_about_physics(const AssetEdit& edit) const {
   return true;
 }
 
+/// A reader complains about the property before and not after: as a finding of `tenon check` says
+/// to, a value is corrected that was replaced by the same one while it was wrong.
+bool EditEffects::is_correction(const AssetEdit& edit) const {
+  const auto complains = [&](const Views& views) {
+    return std::any_of(views.begin(), views.end(), [&](const PhysicsView& view) {
+      return std::any_of(view.findings.begin(), view.findings.end(), [&](const Diagnostic& found) {
+        return found.severity != Severity::Info && found.prim == edit.object.prim().str() &&
+               found.property == edit.object.name().view();
+      });
+    });
+  };
+  return !edit.is_about_api() && complains(before_) && !complains(after_);
+}
+
 void EditEffects::find_wishes(const EditedAsset& asset) {
   std::map<std::size_t, std::size_t> index;  // of wishes that have a number
   wish_of_.resize(edits_.size());
@@ -126,7 +140,7 @@ void EditEffects::find_wishes(const EditedAsset& asset) {
   for (const auto& [object, places] : first_last) {
     const AssetEdit& edit = edits_[places.second->edit];
     const bool new_value = edit.is_about_api() || places.first->before != places.second->after;
-    if (new_value && is_about_physics(edit)) {
+    if (new_value && is_about_physics(edit) && !is_correction(edit)) {
       judged_.insert(places.second->edit);
       wishes_[wish_of_[places.second->edit]].judged = true;
       wishes_[wish_of_[places.second->edit]].has_value |= !edit.is_about_api();

@@ -58,6 +58,7 @@ class EditEffects {
 
   void find_wishes(const EditedAsset& asset);
   bool is_about_physics(const AssetEdit& edit) const;
+  bool is_correction(const AssetEdit& edit) const;
   std::vector<Wishes> rounds() const;
   Result<Views> look();
   /// The physics without the edits of some wishes; nullopt: the others cannot be made alone.

@@ -252,9 +252,10 @@ class BodyMassComputation {
                                           : solid_of(collider.shape);
     if (solid.used_hull && tells_) {
       // M-9
-      state_.report(found.prim, Severity::Warning, "mass.open-mesh",
-                    "the mesh is not closed: its mass is that of its convex hull",
-                    "close the mesh, or author physics:mass and physics:diagonalInertia");
+      state_.report(
+          found.prim, Severity::Warning, "mass.open-mesh",
+          "the mesh is not closed: its mass is that of its convex hull",
+          "close the mesh, or author physics:mass, centerOfMass and diagonalInertia of the body");
     }
     return collider_mass(placed(solid.integrals, collider.pose), authored,
                          density_of(collider, found, authored));

@@ -232,12 +232,15 @@ class ArticulationReader {
   void report_loops(const Articulation& articulation) const {
     for (const Index i : articulation.loop_joints) {
       const stage::Prim& prim = state_.prim_of_joint(i).prim;
+      if (joint(i).exclude_from_articulation) {
+        continue;
+      }
       if (!is_reducible(joint(i))) {
         // S-114
         state_.report(prim, Severity::Info, "articulation.not-reducible",
                       "the joint cannot be part of a tree; it is kept as a constraint",
                       "author excludeFromArticulation to say so");
-      } else if (!joint(i).exclude_from_articulation) {
+      } else {
         // S-111
         state_.report(prim, Severity::Warning, "articulation.loop",
                       "the joint closes a loop of the articulation; it is kept as a constraint, "
