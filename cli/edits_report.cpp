@@ -31,6 +31,9 @@ std::string what(const AssetEdit& edit, const EditedPlace& place) {
   if (is_of_target(edit, place)) {
     return place.spec.str() + "  without its target " + edit.object.str();
   }
+  if (edit.kind == AssetEdit::Kind::SetStageMetadata) {
+    return edit.field.str();
+  }
   return edit.object.str() +
          (api ? (edit.kind == AssetEdit::Kind::ApplyApi ? " + " : " - ") + edit.api.str() : "");
 }
@@ -46,6 +49,7 @@ std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
     text += "  " + (place.before.empty() ? "none" : place.before) + " -> " +
             (place.after.empty() ? "none" : place.after);
   }
+  text += edit.mesh == nullptr ? "" : ", " + edit.mesh->about;
   text += "  (" + place.why;
   if (!place.variants.empty()) {
     text += "; counts with Physics=";
@@ -62,7 +66,7 @@ std::string part_of_line(const AssetEdit& edit, const EditedPlace& place) {
     return (edit.kind == AssetEdit::Kind::RemoveApi ? "without " : "") + edit.api.str();
   }
   if (!edit.object.is_property()) {
-    return place.after;
+    return place.after + (edit.mesh == nullptr ? "" : " (" + edit.mesh->about + ")");
   }
   const std::string name = edit.object.name().str();
   return place.after.empty() ? "without " + name : name + " = " + place.after;

@@ -29,6 +29,7 @@
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/posix_files.h"
 #include "tenon/bytes/write/file_transaction.h"
+#include "tenon/bytes/write/undo_log.h"
 #include "tenon/bytes/zip/unpack_zip.h"
 #include "tenon/formats/save_layer.h"
 
@@ -146,6 +147,17 @@ void keep_taken(int descriptor, int flags) {
   }
 }
 
+/// That it cannot be kept is no fault of the edit; tenon undo says it then.
+std::function<void(std::vector<bytes::ReplacedFile>)> keep_for_undo(const EditOf& edit) {
+  return [edit](std::vector<bytes::ReplacedFile> files) {
+    std::error_code error;
+    const fs::path asset = fs::weakly_canonical(bytes::absolute_file_path(edit.asset), error);
+    if (const auto log = bytes::UndoLog::of_user(); log && !error) {
+      (void)log->add({edit.verb, asset.string(), std::move(files)});
+    }
+  };
+}
+
 }  // namespace
 
 Result<void> Outputs::claim(OutputKind kind, const std::string& path) {
@@ -196,8 +208,10 @@ Result<void> Outputs::commit() const {
       transaction.put(path, contents);
     }
   }
-  TENON_CHECK(
-      transaction.commit({.in_place = in_place_, .make_folders = make_folders_, .check = check_}));
+  TENON_CHECK(transaction.commit({.in_place = in_place_,
+                                  .make_folders = make_folders_,
+                                  .check = check_,
+                                  .replaced = in_place_ ? keep_for_undo(edit_) : nullptr}));
   for (const auto& [path, contents] : files_) {
     if (path == "-") {
       print_data(contents);
@@ -230,11 +244,24 @@ Result<void> check_layer_name(const std::string& path, LayerFormat format) {
 }
 
 Result<void> write_asset(const structure::Package& package, const std::string& folder,
-                         const structure::WriteOptions& options) {
+                         structure::WriteOptions options, const std::string& verb) {
+  if (options.in_place) {
+    options.replaced = keep_for_undo({verb, folder + "/" + package.interface});
+  }
   return write_with_base(package, folder, options);
 }
 
-Result<void> write_edits(const std::vector<EditedFile>& files) { return write_files(files); }
+Result<void> write_edits(const std::vector<EditedFile>& files, const EditOf& edit) {
+  return write_files(files, keep_for_undo(edit));
+}
+
+Result<void> write_undone(const UndoneEdit& edit) {
+  TENON_CHECK(write_files(edit.files));
+  if (const auto log = bytes::UndoLog::of_user()) {
+    log->forget(edit.record);
+  }
+  return {};
+}
 
 Result<void> unpack(const bytes::ZipArchive& archive, const std::string& folder) {
   return bytes::unpack_zip(archive, folder);

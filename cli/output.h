@@ -13,6 +13,7 @@
 #include "cli/report.h"
 #include "tenon/asset/edited_file.h"
 #include "tenon/asset/made_file.h"
+#include "tenon/asset/undoing/undo_edit.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/zip/zip_archive.h"
 #include "tenon/formats/open_layer.h"
@@ -42,15 +43,22 @@ enum class OutputKind : std::uint8_t {
   Recording,   ///< a picture or a film
 };
 
+/// Which verb edits which asset: what it replaces is kept for tenon undo.
+struct EditOf {
+  std::string verb;
+  std::string asset;
+};
+
 /// The files of one run. They are claimed before the work, so that nobody waits for what cannot be
 /// written, then filled, then written all together or not at all.
 class Outputs {
  public:
   Outputs() = default;
   /// In place: over files that the run has read, as long as they are still what was read.
-  static Outputs in_place() {
+  static Outputs in_place(EditOf edit) {
     Outputs outputs;
     outputs.in_place_ = true;
+    outputs.edit_ = std::move(edit);
     return outputs;
   }
 
@@ -74,6 +82,7 @@ class Outputs {
   std::vector<std::pair<std::string, std::string>> files_;
   std::function<Result<void>()> check_;
   bool in_place_ = false;
+  EditOf edit_;
   bool make_folders_ = false;
 };
 
@@ -83,8 +92,10 @@ Result<void> check_layer_name(const std::string& path, formats::LayerFormat form
 /// What other parts make into files, behind the same guards: an asset as a folder, edits of an
 /// asset's files, a package unpacked.
 Result<void> write_asset(const structure::Package& package, const std::string& folder,
-                         const structure::WriteOptions& options);
-Result<void> write_edits(const std::vector<EditedFile>& files);
+                         structure::WriteOptions options, const std::string& verb);
+Result<void> write_edits(const std::vector<EditedFile>& files, const EditOf& edit);
+/// Writes the files as they were before the edit, which is forgotten then.
+Result<void> write_undone(const UndoneEdit& edit);
 Result<void> unpack(const bytes::ZipArchive& archive, const std::string& folder);
 
 /// To be called before anything else: a closed standard stream stays closed, whatever files are

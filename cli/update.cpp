@@ -30,7 +30,8 @@ Result<std::optional<UpdateOutcome>> update(const structure::Package& made,
   UpdateOutcome outcome{*std::move(updated)};
   outcome.written = !dry_run && (options.conflicts != "fail" || outcome.asset.conflicts.empty());
   if (outcome.written) {
-    TENON_CHECK(write_edits(outcome.asset.files));
+    TENON_CHECK(write_edits(outcome.asset.files,
+                            {options.made_by + " --update", folder + "/" + made.interface}));
   }
   return std::optional<UpdateOutcome>(std::move(outcome));
 }

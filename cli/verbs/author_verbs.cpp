@@ -65,7 +65,7 @@ int run_author(const Globals& globals, const std::string& verb, const AuthorArgu
   const auto authored = repeat_edit(report.diagnostics, [&]() -> Result<AuthoredAsset> {
     TENON_TRY(AuthoredAsset done, work(report.diagnostics));
     if (!options.dry_run && done.asset.without_effect.empty()) {
-      TENON_CHECK(write_edits(done.asset.files));
+      TENON_CHECK(write_edits(done.asset.files, {verb, options.asset}));
     }
     return done;
   });
@@ -126,6 +126,7 @@ constexpr const char* kAddFooter =
     "Examples:\n"
     "  tenon add s.usda /World/box=cube,body,collider --size 0.1 --at 0,0,1\n"
     "  tenon add s.usda /World/hand=reference --file hand.usda --rotate 0,0,90\n"
+    "  tenon add s.usda /World/part=mesh,body,collider --file part.stl --approximation convexHull\n"
     "  tenon add s.usda /World/hinge=revolute --body1 /World/box --at 0,0,1.05 --axis Z\n"
     "  tenon add s.usda /World/hinge=drive --stiffness 10 --damping 1\n"
     "  tenon add s.usda /World/sun=distant-light --intensity 3000 --set inputs:exposure=1\n\n";
@@ -177,6 +178,14 @@ void add_new(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--kilograms", options->wanted.kilograms_per_unit,
                   NumberRange{.least = 0, .most = 1e9, .without_least = true, .unit = ""},
                   "Kilograms in a unit of mass");
+  verb.add_option("--time-codes-per-second", options->wanted.time_codes_per_second,
+                  NumberRange{.least = 0, .most = 1e9, .without_least = true, .unit = ""},
+                  "Time codes in a second of motion; without it 24");
+  const NumberRange time_codes{.least = -1e12, .most = 1e12, .unit = ""};
+  verb.add_option("--start-time-code", options->wanted.start_time_code, time_codes,
+                  "First time code of the motion");
+  verb.add_option("--end-time-code", options->wanted.end_time_code, time_codes,
+                  "Last time code of the motion");
   verb.add_option("--default-prim", options->wanted.default_prim, "The prim that holds the scene");
   verb.add_flag("--force", options->force, "Replace a file that is there");
   verb.footer("Examples:\n  tenon new scene.usda\n  tenon new scene.usda --up Y --meters 0.01");

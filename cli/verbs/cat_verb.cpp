@@ -65,7 +65,7 @@ Result<formats::LayerFormat> claim(const CatArguments& options, Outputs& outputs
 }
 
 Result<void> write(const CatArguments& options, Diagnostics& diagnostics) {
-  Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+  Outputs outputs = options.in_place ? Outputs::in_place({"cat", options.output}) : Outputs();
   TENON_TRY(const formats::LayerFormat format, claim(options, outputs));
   const std::string& asset = options.asset.asset;
   const OpenOptions open = options.asset.open_options();

@@ -57,8 +57,8 @@ Result<CheckAssetsOptions> check_options(const CheckArguments& options) {
   wanted.correct = options.fix;
   wanted.suggested = options.suggested;
   if (!options.dry_run) {
-    wanted.write = [](const std::vector<EditedFile>& files) {
-      Outputs outputs = Outputs::in_place();
+    wanted.write = [](const std::string& asset, const std::vector<EditedFile>& files) {
+      Outputs outputs = Outputs::in_place({"check --fix", asset});
       for (const EditedFile& file : files) {
         outputs.put(file.path, file.after);
       }

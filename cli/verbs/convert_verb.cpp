@@ -51,7 +51,7 @@ struct ConvertArguments {
   bool scene = false;
   bool flat = false;
   bool force = false;
-  UpdateArguments update;
+  UpdateArguments update{.made_by = "convert"};
 };
 
 Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
@@ -165,7 +165,7 @@ Result<Conversion> convert_and_write(const ConvertArguments& options, Diagnostic
                 update(asset.package, options.output, options.update, false, diagnostics));
     }
     if (!done.updated) {
-      TENON_CHECK(write_asset(asset.package, options.output, {.force = options.force}));
+      TENON_CHECK(write_asset(asset.package, options.output, {.force = options.force}, "convert"));
     }
     return done;
   }

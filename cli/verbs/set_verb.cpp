@@ -47,7 +47,7 @@ Result<EditedAsset> edit(const SetArguments& options, Report& report,
     TENON_TRY(EditedAsset asset,
               edit_asset(options.asset, edits, edit_options(options), report.diagnostics));
     if (!options.dry_run && asset.without_effect.empty()) {
-      TENON_CHECK(write_edits(asset.files));
+      TENON_CHECK(write_edits(asset.files, {"set", options.asset}));
     }
     return asset;
   });
@@ -86,6 +86,9 @@ constexpr const char* kSetFooter =
     "  tenon set hand.usda --filter-overlaps\n"
     "  tenon set hand.usda /hand/palm.physics:filteredPairs-=/hand/thumb\n"
     "  tenon set hand.usda --apply /hand/palm=PhysxRigidBodyAPI\n"
+    "  tenon set scene.usda --layer timeCodesPerSecond=60 --layer endTimeCode=300\n"
+    "--layer changes no value of the asset: another unit makes it larger or smaller, and that is\n"
+    "told.\n"
     "Units of the typed edits: kilograms; else those of the schema, degrees for angles.";
 
 void add_edit_options(const Command& verb, EditRequest& options) {
@@ -99,6 +102,11 @@ void add_edit_options(const Command& verb, EditRequest& options) {
   verb.add_option("--mimic", options.mimic, "FOLLOWER=LEADER,MULTIPLIER[,OFFSET]").repeatable();
   verb.add_option("--collider", options.collider, "PRIM=APPROXIMATION, or PRIM=on").repeatable();
   verb.add_option("--material", options.material, "PRIM=MATERIAL: physics material").repeatable();
+  verb.add_option(
+          "--layer", options.layer,
+          "NAME=VALUE: metadata of the asset's root layer: timeCodesPerSecond, "
+          "startTimeCode, endTimeCode, metersPerUnit, kilogramsPerUnit, upAxis, defaultPrim")
+      .repeatable();
   verb.add_option("--filter", options.filter,
                   "A,B: disable collision between A and B, and all below them")
       .repeatable();

@@ -38,8 +38,9 @@ Result<void> claim(const StripArguments& options, Outputs& outputs) {
              : outputs.claim(OutputKind::Layer, options.output);
 }
 
-Result<void> write(MadeFiles files, bool in_place) {
-  Outputs outputs = in_place ? Outputs::in_place() : Outputs();
+Result<void> write(MadeFiles files, const StripArguments& options) {
+  Outputs outputs =
+      options.in_place ? Outputs::in_place({"strip", options.asset.asset}) : Outputs();
   outputs.put_all(std::move(files));
   return outputs.commit();
 }
@@ -58,7 +59,7 @@ Result<StrippedAsset> strip(const StripArguments& options, Report& report) {
   TENON_TRY(StrippedAsset asset,
             strip_asset(options.asset.asset, strip_options(options), report.diagnostics));
   const std::size_t files = asset.files.size();
-  TENON_CHECK(write(std::move(asset.files), options.in_place));
+  TENON_CHECK(write(std::move(asset.files), options));
   note_stripped(asset, files, report);
   return asset;
 }
@@ -68,7 +69,7 @@ Result<bake::MuteCounts> mute(const StripArguments& options, Report& report) {
             mute_asset(options.asset.asset, strip_options(options), report.diagnostics));
   MadeFiles files;
   files.push_back(std::move(muted.file));
-  TENON_CHECK(write(std::move(files), options.in_place));
+  TENON_CHECK(write(std::move(files), options));
   return muted.counts;
 }
 

@@ -33,7 +33,7 @@ struct StructureArguments {
   std::string links = "as-authored";
   bool dry_run = false;
   structure::WriteOptions write;
-  UpdateArguments update;
+  UpdateArguments update{.made_by = "structure"};
 };
 
 struct Structured {
@@ -65,7 +65,7 @@ Result<Structured> make(const StructureArguments& options, Report& report) {
                                    options.dry_run, report.diagnostics));
   }
   if (!options.dry_run && !made.updated) {
-    TENON_CHECK(write_asset(made.asset.package, options.output, options.write));
+    TENON_CHECK(write_asset(made.asset.package, options.output, options.write, "structure"));
   }
   return made;
 }

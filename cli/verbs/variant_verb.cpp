@@ -46,7 +46,8 @@ Result<VariantSelection> select(const VariantArguments& options, Report& report)
   if (!selected.kept_layout) {
     report.note("comments and layout of " + shown_path(selected.root) + " are not kept");
   }
-  Outputs outputs = options.in_place ? Outputs::in_place() : Outputs();
+  Outputs outputs =
+      options.in_place ? Outputs::in_place({"variant", options.asset.asset}) : Outputs();
   outputs.put(selected.file.path, std::move(selected.file.contents));
   TENON_CHECK(outputs.commit());
   return selected.selection;

@@ -122,7 +122,9 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments) {
   options.version = TENON_VERSION;
   options.watch = arguments.watch;
   if (!arguments.read_only) {
-    options.write = write_edits;
+    options.write = [asset = arguments.asset.asset](const std::vector<EditedFile>& files) {
+      return write_edits(files, {"view", asset});
+    };
   }
   return options;
 }

@@ -65,7 +65,9 @@ nb::object check(const Files& paths, const OpenArguments& arguments, const std::
   options.check.profile = profile;
   options.correct = fix;
   if (fix) {
-    options.write = [](const std::vector<EditedFile>& files) { return write_files(files); };
+    options.write = [](const std::string& /*asset*/, const std::vector<EditedFile>& files) {
+      return write_files(files);
+    };
   }
   std::vector<std::string> names;
   for (const std::filesystem::path& path : paths) {

@@ -67,7 +67,10 @@ Result<void> check_in_no_package(const std::string& identifier) {
 Result<void> check_object(const AssetEdit& edit) {
   const Path path = edit.object;
   const bool of_prim = edit.is_about_api() || edit.is_about_prim();
-  const bool fits = of_prim ? path.is_prim() : path.kind() == PathKind::Property;
+  const bool of_stage = edit.kind == Kind::SetStageMetadata;
+  const bool fits = of_stage  ? path.is_absolute_root()
+                    : of_prim ? path.is_prim()
+                              : path.kind() == PathKind::Property;
   if (fits && path.is_absolute() && !path.has_variants()) {
     return {};
   }
@@ -325,7 +328,8 @@ class AssetEditor::State {
 
   /// In all files at once; looks whether it is composed as asked.
   Result<void> edit_specs(std::size_t number, const AssetEdit& edit) {
-    AllFiles files{roles_, {}, [this](const std::string& layer) { return editor_of(layer); }};
+    AllFiles files{
+        roles_, {}, [this](const std::string& layer) { return editor_of(layer); }, *diagnostics_};
     for (const Selection& selection : selections_) {
       files.stages.push_back(selection.stage);
     }

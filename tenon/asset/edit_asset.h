@@ -13,6 +13,7 @@
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
+#include "tenon/mesh/mesh_scene.h"
 #include "tenon/open_stage.h"
 #include "tenon/scene/fields/scene_difference.h"
 #include "tenon/stage/stage.h"
@@ -27,6 +28,13 @@ struct AssetArc {
   Path prim;             ///< empty: the default prim of the file
 };
 
+/// The geometry of a prim of type Mesh that is made.
+struct MeshGeometry {
+  mesh::PolygonMesh shape;    ///< in units and axes of the stage
+  std::vector<Vec3f> colors;  ///< linear; none, one for all, or (face_count)
+  std::string about;          ///< where it comes from, in words
+};
+
 /// One edit of something of the composed scene.
 struct AssetEdit {
   enum class Kind : unsigned char {
@@ -34,14 +42,15 @@ struct AssetEdit {
     ClearProperty,
     ApplyApi,
     RemoveApi,
-    AddTargets,      ///< to what a relationship has
-    RemoveTargets,   ///< of a relationship, also from weaker layers; from `layer` where tidy
-    DefinePrim,      ///< of type `type_name`, below a prim that is there, with what `arc` brings
-    AddVariant,      ///< `value` is SET=VARIANT
-    RemoveVariant,   ///< the same, from all own files; a set goes with its last one
-    RemovePrim,      ///< from all own files, and from every list of targets in them
-    RenamePrim,      ///< `value` is the new name, also for all that names the prim in own files
-    RenameProperty,  ///< the same of a property
+    AddTargets,        ///< to what a relationship has
+    RemoveTargets,     ///< of a relationship, also from weaker layers; from `layer` where tidy
+    DefinePrim,        ///< of type `type_name`, below a prim that is there, with what `arc` brings
+    AddVariant,        ///< `value` is SET=VARIANT
+    RemoveVariant,     ///< the same, from all own files; a set goes with its last one
+    RemovePrim,        ///< from all own files, and from every list of targets in them
+    RenamePrim,        ///< `value` is the new name, also for all that names the prim in own files
+    RenameProperty,    ///< the same of a property
+    SetStageMetadata,  ///< `field` of the root layer; the object is "/"
   };
 
   Kind kind = Kind::SetProperty;
@@ -50,6 +59,7 @@ struct AssetEdit {
                       ///< "None" blocks; of a relationship: paths, all that it has then, or those
                       ///< to add or remove
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
+  Token field;        ///< of the stage: "metersPerUnit"
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it; of a prim
   std::string engine{};  ///< its file alone, whatever EditOptions::engine says
   std::string layer{};   ///< this file alone, by its identifier
@@ -58,7 +68,8 @@ struct AssetEdit {
   std::optional<std::size_t> wish{};
 
   std::optional<AssetArc> arc{};
-  bool tidy = false;      ///< removing takes specs along that say nothing then
+  std::shared_ptr<const MeshGeometry> mesh{};  ///< what a prim of type Mesh that is made shows
+  bool tidy = false;                           ///< removing takes specs along that say nothing then
   bool may_rest = false;  ///< nothing that engines receive has to change by it alone
 
   bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "tenon/asset/editing/engine_forms.h"
+#include "tenon/asset/editing/stage_metadata.h"
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
 #include "tenon/open_stage.h"
@@ -130,7 +131,13 @@ Result<void> add_typed(const std::string& asset, const EditRequest& request,
 
 Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRequest& request,
                                           const EditOptions& options) {
-  std::vector<AssetEdit> edits;
+  if (!request.layer.empty() && !options.layer.empty()) {
+    return Error(ErrorCode::Invalid, "--layer sets metadata of the file that is named first")
+        .with_rule("edit.bad-argument")
+        .with_fix("leave --in out, or name that file: tenon set " + options.layer + " --layer " +
+                  request.layer.front());
+  }
+  TENON_TRY(std::vector<AssetEdit> edits, stage_metadata_edits(request.layer));
   for (const std::string& text : request.remove) {
     TENON_TRY(AssetEdit edit, api_edit(text, AssetEdit::Kind::RemoveApi));
     edits.push_back(std::move(edit));

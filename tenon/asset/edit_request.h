@@ -22,6 +22,7 @@ struct EditRequest {
   std::vector<std::string> drive;
   std::vector<std::string> mimic;
   std::vector<std::string> filter;
+  std::vector<std::string> layer;       ///< NAME=VALUE: metadata of the stage
   bool filter_overlaps = false;  ///< every pair of bodies that overlap at the start
   bool all_engines = false;      ///< what one engine has a form of its own for is edited there, too
   std::string type;              ///< of attributes that assignments create

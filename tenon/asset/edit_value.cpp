@@ -58,6 +58,7 @@ bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyV
     case AssetEdit::Kind::RemovePrim:
     case AssetEdit::Kind::RenamePrim:
     case AssetEdit::Kind::RenameProperty:
+    case AssetEdit::Kind::SetStageMetadata:
       return true;  // looked at where they are made
     case AssetEdit::Kind::SetProperty:
       break;

@@ -35,13 +35,14 @@ Result<EditedFile> new_file(const layer::Layer& layer) {
   return file;
 }
 
-Result<void> write_files(const std::vector<EditedFile>& files) {
+Result<void> write_files(const std::vector<EditedFile>& files,
+                         const std::function<void(std::vector<bytes::ReplacedFile>)>& replaced) {
   bytes::FileTransaction transaction;
   for (const EditedFile& file : files) {
     file.removed ? transaction.remove(file.path, file.path.substr(0, file.path.rfind('/')))
                  : transaction.put(file.path, file.after);
   }
-  return transaction.commit({.in_place = true, .make_folders = true});
+  return transaction.commit({.in_place = true, .make_folders = true, .replaced = replaced});
 }
 
 }  // namespace tenon

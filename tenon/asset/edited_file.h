@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/write/replaced_file.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon {
@@ -31,6 +33,9 @@ Result<EditedFile> edited_file(const bytes::FileBytes& bytes, const layer::Layer
 Result<EditedFile> new_file(const layer::Layer& layer);
 
 /// Writes all files in one step, also when the process is killed (bytes/write/file_transaction.h).
-Result<void> write_files(const std::vector<EditedFile>& files);
+/// `replaced` is told what the files held (bytes::CommitOptions).
+Result<void> write_files(
+    const std::vector<EditedFile>& files,
+    const std::function<void(std::vector<bytes::ReplacedFile>)>& replaced = nullptr);
 
 }  // namespace tenon

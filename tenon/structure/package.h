@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/write/replaced_file.h"
 #include "tenon/compose/layer_opener.h"
 #include "tenon/formats/layer_format.h"
 #include "tenon/layer/layer.h"
@@ -58,6 +60,8 @@ struct WriteOptions {
   bool force = false;
   bool in_place = false;         ///< the folder may be that of the asset that is read
   bool can_be_in_place = false;  ///< messages may name --in-place
+  /// Told what the files of a folder that exists held (bytes::CommitOptions).
+  std::function<void(std::vector<bytes::ReplacedFile>)> replaced = nullptr;
 };
 
 /// Puts the package, with its layers stored, into `folder`. A new folder is written under a hidden

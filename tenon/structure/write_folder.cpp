@@ -173,7 +173,8 @@ class OldFolder {
                                .check = [this, &stale]() -> Result<void> {
                                  TENON_CHECK(look());
                                  return stale == stale_ ? Result<void>() : changed();
-                               }});
+                               },
+                               .replaced = options_.replaced});
   }
 
  private:

@@ -41,6 +41,7 @@ PRINTED_BY = {
     "tenon/asset/edit_file_choice.cpp": ("add", "set"),
     "tenon/asset/editing/edit_reason.cpp": ("set",),
     "tenon/asset/editing/engine_forms.cpp": ("set",),
+    "tenon/asset/editing/stage_metadata.cpp": ("set",),
     "tenon/asset/layers/strip_asset.cpp": ("strip",),
     "tenon/asset/layers/select_variant.cpp": ("variant",),
     "tenon/asset/many_environments": ("bench",),

@@ -172,6 +172,7 @@ PRINTING = {
     "sweep": ["sweep", "--help"],  # the rest is printed by Python
     "test-runner": ["test-runner", "layer", "scene.usda"],
     "tree": ["tree", "scene.usda"],
+    "undo": ["undo", "--help"],  # the rest stands in test_undo.py
     "variant": ["variant", "scene.usda"],
     "version": ["version"],
     "view": ["view", "scene.usda", "--for", "0"] if has_viewer() else ["view", "--help"],
@@ -223,6 +224,7 @@ WRITING = {
     "sweep": [],  # Python writes: python/tests/test_sweep_logic.py
     "test-runner": [],
     "tree": [],
+    "undo": [],  # in place alone
     "variant": [["variant", "base.usda", "Physics=none", "-o", "OUT.usda"]],
     "version": [],
     "view": [["view", "scene.usda", "--screenshot", "OUT.png"]],

@@ -22,7 +22,7 @@ OPTIONS = ("--sandbox", "--search-path", "--allow-read")
 MARK = "CANARY"
 
 # What reads no asset.
-WITHOUT = {"doctor", "help", "version", "completion", "manual", "new", "sweep",
+WITHOUT = {"doctor", "help", "version", "completion", "manual", "new", "sweep", "undo",
            "test-runner list-op", "test-runner schemas"}
 # Verb -> its arguments behind the asset; OUT is a folder.
 ROWS = {

@@ -21,7 +21,9 @@ Json place_json(const AssetEdit& edit, const EditedPlace& place) {
               {"file", shown_path(place.file)},  {"line", or_null(place.line)},
               {"spec", place.spec.str()},        {"why", place.why},
               {"before", or_null(place.before)}, {"after", or_null(place.after)}};
+  row["metadata"] = or_null(edit.field);
   row["variants"] = place.variants;
+  row["mesh"] = edit.mesh == nullptr ? Json(nullptr) : Json(edit.mesh->about);
   return row;
 }
 
@@ -45,7 +47,11 @@ Json text_difference_json(const std::string& name, const std::string& before,
 }
 
 Json new_json(const std::string& file, const NewAsset& made) {
+  const auto number = [](double value) { return Json(value); };
   return {{"file", shown_path(file)},
+          {"timeCodesPerSecond", or_null(made.time_codes_per_second, number)},
+          {"startTimeCode", or_null(made.start_time_code, number)},
+          {"endTimeCode", or_null(made.end_time_code, number)},
           {"upAxis", made.up_axis},
           {"metersPerUnit", made.meters_per_unit},
           {"kilogramsPerUnit", made.kilograms_per_unit},

@@ -12,14 +12,16 @@
 namespace tenon {
 
 /// What edits did, or with `dry_run` would do: {"dryRun", "edits": [{"object", "api", "file",
-/// "line", "spec", "why", "before", "after", "variants", "hasEffect"}], "physics": [{"variant",
-/// "differences": rows of answers::difference_json}], "files": [{"file", "diff", "keptLayout"}]}.
-/// "diff" is null for what is no text, "variant" where there is no set "Physics".
+/// "line", "spec", "why", "before", "after", "metadata", "mesh", "variants", "hasEffect"}],
+/// "physics": [{"variant", "differences": rows of answers::difference_json}], "files": [{"file",
+/// "diff", "keptLayout"}]}. "diff" is null for what is no text, "variant" where there is no set
+/// "Physics", "metadata" (the name of one of the stage) and "mesh" (where a shape comes from) for
+/// all other edits.
 answers::Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset,
                           bool dry_run);
 
 /// What was made by new_asset: {"file", "upAxis", "metersPerUnit", "kilogramsPerUnit",
-/// "defaultPrim"}.
+/// "defaultPrim", "timeCodesPerSecond", "startTimeCode", "endTimeCode"}; null: not written.
 answers::Json new_json(const std::string& file, const NewAsset& made);
 
 /// The difference of a text as JSON, as patch(1) reads it; null for what is no text.

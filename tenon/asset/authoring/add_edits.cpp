@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "tenon/asset/authoring/joint_placement.h"
+#include "tenon/asset/authoring/mesh_file.h"
 #include "tenon/asset/authoring/requested_kinds.h"
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
@@ -47,12 +49,36 @@ std::string tuple_text(const std::string& text) {
   return number && text.find(',') != std::string::npos ? "(" + text + ")" : text;
 }
 
+/// Errors: edit.bad-argument.
+Result<MeshFileRequest> mesh_request(const AuthoringRequest& request, Path prim) {
+  const auto given = [&](const char* option) {
+    const auto found = request.options.find(option);
+    return found == request.options.end() ? std::string() : found->second;
+  };
+  MeshFileRequest mesh{given("file"), {}, given("file-up")};
+  const std::string meters = given("file-meters");
+  if (meters.empty()) {
+    return mesh;
+  }
+  mesh.meters = parse_double(meters);
+  if (!mesh.meters || !(*mesh.meters > 0) || !std::isfinite(*mesh.meters)) {
+    return bad_option(prim, "--file-meters " + meters + " is no unit of length",
+                      "write the metres in a unit: 0.001 for millimetres");
+  }
+  return mesh;
+}
+
 /// Makes the edits of one PATH=KIND,KIND.
 class Addition {
  public:
-  Addition(const Stages& stages, const AuthoringRequest& request, const std::string& engine,
-           const RequestedKinds& wanted, AddedEdits& edits)
-      : stages_(stages), request_(request), engine_(engine), wanted_(wanted), edits_(edits) {}
+  Addition(const Stages& stages, const AuthoringRequest& request, const EditOptions& options,
+           const RequestedKinds& wanted, AddedEdits& edits, Diagnostics& diagnostics)
+      : stages_(stages),
+        request_(request),
+        options_(options),
+        wanted_(wanted),
+        edits_(edits),
+        diagnostics_(diagnostics) {}
 
   Result<void> make() {
     const Kind& first = *wanted_.kinds.front();
@@ -115,7 +141,10 @@ class Addition {
     edit.kind = Verdict::DefinePrim;
     edit.object = wanted_.prim;
     edit.type_name = Token(std::string(kind.type));
-    if (const std::string* file = given("file")) {
+    if (kind.name == "mesh") {
+      TENON_TRY(const MeshFileRequest mesh, mesh_request(request_, wanted_.prim));
+      TENON_TRY(edit.mesh, read_mesh_file(mesh, stage(), options_.open, diagnostics_));
+    } else if (const std::string* file = given("file")) {
       edit.arc = AssetArc{kind.name == "payload", bytes::absolute_file_path(*file), {}};
       if (const std::string* prim = given("prim")) {
         TENON_TRY(edit.arc->prim, Path::parse(*prim));
@@ -157,7 +186,7 @@ class Addition {
     if (kind_->name == "variant" || kind_->name == "engine") {
       return kind_->name == "variant" ? add_variant() : Result<void>();
     }
-    if (kind_->name == "mimic" && engine_ == "physx") {
+    if (kind_->name == "mimic" && options_.engine == "physx") {
       return add_physx_mimic();
     }
     if (kind_->name == "limit" && has_own_limits(type())) {
@@ -283,7 +312,7 @@ class Addition {
     TENON_TRY(AddedEdits made,
               mimic_edits(wanted_.prim.str() + "=" + value_of("leader", "") + "," +
                               value_of("multiplier", "1") + "," + value_of("offset", "0"),
-                          engine_));
+                          options_.engine));
     for (AssetEdit& edit : made) {
       push(std::move(edit));
     }
@@ -380,9 +409,10 @@ class Addition {
 
   const Stages& stages_;
   const AuthoringRequest& request_;
-  const std::string& engine_;
+  const EditOptions& options_;
   const RequestedKinds& wanted_;
   AddedEdits& edits_;
+  Diagnostics& diagnostics_;
   stage::Prim there_;  // invalid: it is made
   const Kind* kind_ = nullptr;
   std::size_t wish_ = 0;
@@ -392,7 +422,7 @@ class Addition {
 }  // namespace
 
 Result<std::vector<AssetEdit>> add_edits(const Stages& stages, const AuthoringRequest& request,
-                                         const std::string& engine) {
+                                         const EditOptions& options, Diagnostics& diagnostics) {
   std::vector<RequestedKinds> requested;
   for (const std::string& text : request.what) {
     TENON_TRY(RequestedKinds one, read_requested(text, true));
@@ -401,7 +431,7 @@ Result<std::vector<AssetEdit>> add_edits(const Stages& stages, const AuthoringRe
   TENON_CHECK(check_options(request, requested));
   AddedEdits edits;
   for (const RequestedKinds& one : requested) {
-    TENON_CHECK(Addition(stages, request, engine, one, edits).make());
+    TENON_CHECK(Addition(stages, request, options, one, edits, diagnostics).make());
   }
   return edits;
 }

@@ -26,7 +26,9 @@ using Stages = std::vector<std::shared_ptr<const stage::Stage>>;
 /// that is made are one wish, and so are those of each kind that is put on one. `stages` are the
 /// asset under all its selections of "Physics". Errors: Invalid (edit.bad-argument,
 /// edit.unknown-kind, edit.has-it-already, edit.wrong-type, edit.no-body), NotFound (edit.no-prim).
+/// Files that references and meshes name are read: errors are those of reading them, too, and what
+/// is skipped of them goes to `diagnostics`.
 Result<std::vector<AssetEdit>> add_edits(const Stages& stages, const AuthoringRequest& request,
-                                         const std::string& engine);
+                                         const EditOptions& options, Diagnostics& diagnostics);
 
 }  // namespace tenon

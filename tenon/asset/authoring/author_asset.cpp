@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/authoring/author_asset.h"
 
+#include <functional>
 #include <utility>
 
 #include "tenon/asset/authoring/remove_edits.h"
@@ -16,8 +17,7 @@
 namespace tenon {
 namespace {
 
-using ReadRequest = Result<std::vector<AssetEdit>> (*)(const Stages&, const AuthoringRequest&,
-                                                       const std::string&);
+using ReadRequest = std::function<Result<std::vector<AssetEdit>>(const Stages&)>;
 
 /// What an arc names must be a layer; else the prim would stay empty.
 Result<void> check_opens(const AssetArc& arc, const bytes::Files& files) {
@@ -36,9 +36,8 @@ Result<void> check_opens(const AssetArc& arc, const bytes::Files& files) {
                 " says what is wrong with a USD file, tenon convert reads URDF and MJCF");
 }
 
-Result<AuthoredAsset> author(const std::string& path, const AuthoringRequest& request,
-                             const EditOptions& options, ReadRequest read,
-                             Diagnostics& diagnostics) {
+Result<AuthoredAsset> author(const std::string& path, const EditOptions& options,
+                             const ReadRequest& read, Diagnostics& diagnostics) {
   Diagnostics ignored;  // of opening: edit_asset opens again and reports
   AuthoredAsset authored;
   {
@@ -48,7 +47,7 @@ Result<AuthoredAsset> author(const std::string& path, const AuthoringRequest& re
     for (const AssetEditor::View& view : views) {
       stages.push_back(view.stage);
     }
-    TENON_TRY(authored.edits, read(stages, request, options.engine));
+    TENON_TRY(authored.edits, read(stages));
     for (const AssetEdit& edit : authored.edits) {
       if (edit.arc) {
         TENON_CHECK(check_opens(*edit.arc, options.open.files));
@@ -76,6 +75,13 @@ Result<MadeFile> new_asset(const std::string& file, const NewAsset& wanted) {
   TENON_CHECK(editor.set_metadata(root, Token("kilogramsPerUnit"),
                                   layer::Value(wanted.kilograms_per_unit)));
   TENON_CHECK(editor.set_metadata(root, Token("upAxis"), layer::Value(Token(wanted.up_axis))));
+  for (const auto& [field, value] : {std::pair("timeCodesPerSecond", wanted.time_codes_per_second),
+                                     std::pair("startTimeCode", wanted.start_time_code),
+                                     std::pair("endTimeCode", wanted.end_time_code)}) {
+    if (value) {
+      TENON_CHECK(editor.set_metadata(root, Token(field), layer::Value(*value)));
+    }
+  }
   TENON_CHECK(editor.define_prim(root.child(name), Token("Xform")));
   const layer::LayerPtr made = editor.layer(bytes::absolute_file_path(file));
   TENON_TRY(std::string contents, new_contents(*made, file));
@@ -84,12 +90,18 @@ Result<MadeFile> new_asset(const std::string& file, const NewAsset& wanted) {
 
 Result<AuthoredAsset> add_to_asset(const std::string& path, const AuthoringRequest& request,
                                    const EditOptions& options, Diagnostics& diagnostics) {
-  return author(path, request, options, add_edits, diagnostics);
+  const auto read = [&](const Stages& stages) {
+    return add_edits(stages, request, options, diagnostics);
+  };
+  return author(path, options, read, diagnostics);
 }
 
 Result<AuthoredAsset> remove_from_asset(const std::string& path, const AuthoringRequest& request,
                                         const EditOptions& options, Diagnostics& diagnostics) {
-  return author(path, request, options, remove_edits, diagnostics);
+  const auto read = [&](const Stages& stages) {
+    return remove_edits(stages, request, options.engine);
+  };
+  return author(path, options, read, diagnostics);
 }
 
 Result<AuthoredAsset> rename_in_asset(const std::string& path, const std::string& named,

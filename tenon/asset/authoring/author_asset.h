@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct NewAsset {
   double meters_per_unit = 1;
   double kilograms_per_unit = 1;
   std::string default_prim = "World";
+  std::optional<double> time_codes_per_second;
+  std::optional<double> start_time_code;
+  std::optional<double> end_time_code;
 };
 
 /// A file with the units and an empty Xform as its default prim, in the format of its name. Errors:

@@ -109,7 +109,7 @@ class AssetsCheck {
     const bytes::ReadPolicy policy = policy_of(path);
     std::erase_if(files, [&](const EditedFile& file) { return !belongs(file, path, policy); });
     if (options_.write) {
-      TENON_CHECK(options_.write(files));
+      TENON_CHECK(options_.write(path, files));
     }
     return files;
   }

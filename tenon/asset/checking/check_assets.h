@@ -19,7 +19,7 @@ struct CheckAssetsOptions {
   bool suggested = false;  ///< and what has a suggestion
   /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
   /// written, and the findings are those before.
-  Function<Result<void>(const std::vector<EditedFile>& files)> write;
+  Function<Result<void>(const std::string& asset, const std::vector<EditedFile>& files)> write;
   std::string baseline;  ///< file of findings that are known; empty: none are
   Function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
 };

@@ -11,6 +11,7 @@
 
 #include "tenon/asset/editing/prim_sites.h"
 #include "tenon/asset/editing/spec_edits.h"
+#include "tenon/asset/editing/stage_metadata.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon {
@@ -125,6 +126,10 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
 }  // namespace
 
 Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit) {
+  if (edit.kind == Kind::SetStageMetadata) {
+    TENON_TRY(EditedPlace place, set_stage_metadata(files, edit, files.diagnostics));
+    return std::vector<EditedPlace>{std::move(place)};
+  }
   if (is_renaming(edit)) {
     TENON_CHECK(check_new_name(files, edit));
   }
@@ -187,6 +192,13 @@ bool is_there(const stage::Stage& stage, const AssetEdit& edit) {
 }  // namespace
 
 Result<void> check_done_in_all_files(const stage::Stage& stage, const AssetEdit& edit) {
+  if (edit.kind == Kind::SetStageMetadata) {
+    return has_stage_metadata(stage, edit)
+               ? Result<void>()
+               : Error(ErrorCode::Invalid, edit.field.str() + " of the root layer does not count")
+                     .with_rule("edit.hidden")
+                     .with_fix("a session layer sets it: leave it out");
+  }
   if (edit.kind == Kind::RemoveVariant || !is_there(stage, edit)) {
     return {};
   }

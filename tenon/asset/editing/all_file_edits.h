@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tenon/asset/edit_asset.h"
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/stage/stage.h"
@@ -20,6 +21,7 @@ struct AllFiles {
   const structure::RolesOfFiles& roles;
   std::vector<std::shared_ptr<const stage::Stage>> stages;  ///< under all selections
   std::function<edit::StageEditor*(const std::string& layer)> editor_of;
+  Diagnostics& diagnostics;
 };
 
 /// Makes the edit; a place for each file, and for each list of targets that lost one. Errors: those

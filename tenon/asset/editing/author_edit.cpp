@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One edit becomes calls of edit::StageEditor at its edit target. Several calls are one step of the
+// history, so that an edit that fails leaves nothing behind. Long arrays of meshes go into the
+// layer as values, not by way of text.
 #include "tenon/asset/editing/author_edit.h"
 
 #include <algorithm>
@@ -8,7 +12,9 @@
 
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/edit/apply_list_edit.h"
+#include "tenon/edit/layer_editor.h"
 #include "tenon/layer/fields.h"
+#include "tenon/mesh/mesh_shape.h"
 
 namespace tenon {
 namespace {
@@ -42,9 +48,54 @@ std::string name_from_layer(const edit::StageEditor& editor, const std::string& 
   return relative_asset_path(file, std::filesystem::path(editor.target().layer).parent_path());
 }
 
-Result<void> define_prim(edit::StageEditor& editor, const AssetEdit& edit) {
+layer::Value extent_value(const std::vector<Vec3f>& points) {
+  const auto [low, high] = mesh::extent_of(points);
+  return layer::Value(std::vector<Vec3f>{low, high});
+}
+
+/// Writes what a Mesh shows; `spec` is the prim in the layer.
+Result<void> write_mesh(edit::LayerEditor& editor, Path spec, const MeshGeometry& mesh) {
+  const auto set = [&](const char* name, const char* type, layer::Value value,
+                       const char* interpolation = nullptr,
+                       layer::Variability variability =
+                           layer::Variability::Varying) -> Result<void> {
+    const Path property = spec.property(Token(name));
+    TENON_CHECK(editor.create_attribute(property, Token(type), variability, false));
+    editor.set(property, fields::default_value, std::move(value));
+    if (interpolation != nullptr) {
+      editor.set(property, Token("interpolation"), layer::Value(Token(interpolation)));
+    }
+    return {};
+  };
+  const mesh::PolygonMesh& shape = mesh.shape;
+  TENON_CHECK(set("extent", "float3[]", extent_value(shape.points)));
+  TENON_CHECK(set("faceVertexCounts", "int[]", layer::Value(shape.face_counts)));
+  TENON_CHECK(set("faceVertexIndices", "int[]", layer::Value(shape.face_points)));
+  const bool flat = shape.normals.empty();
+  TENON_CHECK(set("normals", "normal3f[]",
+                  layer::Value(flat ? mesh::face_normals(shape) : shape.normals),
+                  flat ? "uniform" : "faceVarying"));
+  TENON_CHECK(set("points", "point3f[]", layer::Value(shape.points)));
+  if (!mesh.colors.empty()) {
+    TENON_CHECK(set("primvars:displayColor", "color3f[]", layer::Value(mesh.colors),
+                    mesh.colors.size() == 1 ? "constant" : "uniform"));
+  }
+  if (!shape.texture_coordinates.empty()) {
+    TENON_CHECK(
+        set("primvars:st", "texCoord2f[]", layer::Value(shape.texture_coordinates), "faceVarying"));
+  }
+  return set("subdivisionScheme", "token", layer::Value(Token("none")), nullptr,
+             layer::Variability::Uniform);
+}
+
+Result<void> define_prim(edit::StageEditor& editor, const AssetEdit& edit, Path spec) {
   return editor.as_one_step([&]() -> Result<void> {
     TENON_CHECK(editor.define_prim(edit.object, edit.type_name));
+    if (edit.mesh != nullptr) {
+      return editor.edit_layer(editor.target().layer, [&](edit::LayerEditor& specs) {
+        return write_mesh(specs, spec, *edit.mesh);
+      });
+    }
     if (!edit.arc) {
       return {};
     }
@@ -92,13 +143,14 @@ Result<void> author_edit(edit::StageEditor& editor, const AssetEdit& edit, Path 
     case Kind::RemoveApi:
       return take_away(editor, edit, spec);
     case Kind::DefinePrim:
-      return define_prim(editor, edit);
+      return define_prim(editor, edit, spec);
     case Kind::AddVariant:
       return add_variant(editor, edit);
     case Kind::RemoveVariant:
     case Kind::RemovePrim:
     case Kind::RenamePrim:
     case Kind::RenameProperty:
+    case Kind::SetStageMetadata:
       return Error(ErrorCode::Invalid, "this edit is of all files at once");
     case Kind::ApplyApi:
       return editor.as_one_step([&]() -> Result<void> {

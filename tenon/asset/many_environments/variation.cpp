@@ -64,13 +64,13 @@ std::uint64_t mixed(std::uint64_t number) {
 
 // ---- parameters
 
-struct Value {
+struct ParameterValue {
   engines::ParameterKey key;
   double now = 0;
 };
 
 void add_body_values(const Variation& variation, const scene::PhysicsScene& scene,
-                     std::vector<Value>& values) {
+                     std::vector<ParameterValue>& values) {
   for (Index i = 0; i < scene.bodies.size(); ++i) {
     const bool any = variation.object.empty() && !scene.bodies[i].kinematic;
     if (any || scene.bodies[i].path == variation.object) {
@@ -80,7 +80,7 @@ void add_body_values(const Variation& variation, const scene::PhysicsScene& scen
 }
 
 void add_friction_values(const Variation& variation, const scene::PhysicsScene& scene,
-                         std::vector<Value>& values) {
+                         std::vector<ParameterValue>& values) {
   for (Index i = 0; i < scene.colliders.size(); ++i) {
     const scene::Collider& collider = scene.colliders[i];
     if (variation.object.empty() || collider.path == variation.object) {
@@ -110,7 +110,7 @@ bool is_of_drives(Parameter parameter) {
 
 /// Values that are zero or unlimited stay so whatever the factor is, and are skipped.
 void add_joint_values(const Variation& variation, const scene::PhysicsScene& scene,
-                      std::vector<Value>& values) {
+                      std::vector<ParameterValue>& values) {
   const auto add = [&](const engines::ParameterKey& key, double now) {
     if (now != 0 && now < scene::kUnlimited) {
       values.push_back({key, now});
@@ -131,8 +131,9 @@ void add_joint_values(const Variation& variation, const scene::PhysicsScene& sce
   }
 }
 
-std::vector<Value> values_of(const Variation& variation, const scene::PhysicsScene& scene) {
-  std::vector<Value> values;
+std::vector<ParameterValue> values_of(const Variation& variation,
+                                      const scene::PhysicsScene& scene) {
+  std::vector<ParameterValue> values;
   if (variation.parameter == Parameter::BodyMass) {
     add_body_values(variation, scene, values);
   } else if (variation.parameter == Parameter::ColliderFriction) {
@@ -153,8 +154,8 @@ Error no_object(const Variation& variation) {
 
 Result<void> vary_parameter(const Variation& variation, double factor,
                             const scene::PhysicsScene& scene, engines::World& world) {
-  const std::vector<Value> values = values_of(variation, scene);
-  for (const Value& value : values) {
+  const std::vector<ParameterValue> values = values_of(variation, scene);
+  for (const ParameterValue& value : values) {
     TENON_CHECK(world.set_parameter(value.key, value.now * factor));
   }
   return values.empty() ? Result<void>(no_object(variation)) : Result<void>();

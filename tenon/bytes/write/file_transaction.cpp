@@ -19,6 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tenon/base/sha256.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/posix_files.h"
 #include "tenon/bytes/read_record.h"
@@ -108,14 +109,20 @@ class Commit {
     }
     TENON_CHECK(write_beside());
     const bool alone = places_.size() == 1 && removals_.empty();
-    if (alone && !options_.in_place && !options_.check && transaction_.held_.empty()) {
+    const bool asked = options_.in_place || options_.check || options_.replaced;
+    if (alone && !asked && transaction_.held_.empty()) {
       return finish(files_.front().rename_to(places_.front().target));
     }
     const std::set<std::string> folders = folders_to_lock();
     TENON_CHECK(finish_journals(folders));
     TENON_TRY(const FolderLock lock, FolderLock::take(folders));
     TENON_CHECK(check_unchanged());
-    return finish(alone ? files_.front().rename_to(places_.front().target) : exchange());
+    std::optional<std::vector<ReplacedFile>> replaced_files = read_replaced();
+    TENON_CHECK(finish(alone ? files_.front().rename_to(places_.front().target) : exchange()));
+    if (replaced_files) {
+      options_.replaced(*std::move(replaced_files));
+    }
+    return {};
   }
 
  private:
@@ -248,6 +255,53 @@ class Commit {
       return {};
     }
     return record->check_unchanged(replaced());
+  }
+
+  /// What the files hold, while nobody else may write; nothing where nobody asks, one cannot be
+  /// read or they are too large.
+  std::optional<std::vector<ReplacedFile>> read_replaced() const {
+    if (!options_.replaced) {
+      return std::nullopt;
+    }
+    std::vector<ReplacedFile> files;
+    std::size_t left = options_.most_replaced;
+    for (const Place& place : places_) {
+      Sha256 digest;
+      digest.update(place.contents);
+      files.push_back({place.target, std::nullopt, digest.hex_digest()});
+      if (place.old && !read_before(place.target, left, files.back())) {
+        return std::nullopt;
+      }
+    }
+    for (const FileTransaction::Removal& removal : removals_) {
+      files.push_back({removal.path, std::nullopt, std::nullopt});
+      struct stat info = {};
+      const bool is_file = ::lstat(removal.path.c_str(), &info) == 0 && S_ISREG(info.st_mode);
+      if (!is_file || !read_before(removal.path, left, files.back())) {
+        return std::nullopt;
+      }
+    }
+    return files;
+  }
+
+  /// False where the file cannot be read or holds more than `left` bytes, which it takes off.
+  static bool read_before(const std::string& path, std::size_t& left, ReplacedFile& file) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat info = {};
+    if (descriptor < 0) {
+      return false;
+    }
+    bool read = ::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
+                static_cast<std::uint64_t>(info.st_size) <= left;
+    if (read) {
+      std::string contents(static_cast<std::size_t>(info.st_size), '\0');
+      read = read_up_to(descriptor, contents) == 0 &&
+             contents.size() == static_cast<std::size_t>(info.st_size);
+      left -= contents.size();
+      file.before = std::move(contents);
+    }
+    ::close(descriptor);
+    return read;
   }
 
   std::set<FileIdentity> replaced() const {

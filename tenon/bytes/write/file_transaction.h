@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/limits/undo_limits.h"
 #include "tenon/base/result.h"
+#include "tenon/bytes/write/replaced_file.h"
 
 namespace tenon::bytes {
 
@@ -20,6 +22,10 @@ struct CommitOptions {
   bool make_folders = false;
   /// Called once no one else can write, before anything changes; its Error ends the commit.
   std::function<Result<void>()> check = nullptr;
+  /// Told, when all is written, which files changed and what they held before. Not called where
+  /// they held more than `most_replaced` bytes. Devices are not among them.
+  std::function<void(std::vector<ReplacedFile>)> replaced = nullptr;
+  std::size_t most_replaced = limits::kUndoEditBytes;
 };
 
 /// Files that change together: all of them or none.

@@ -6,8 +6,7 @@
 // parts, normals, places in images and looks of their own.
 #include "tenon/convert/shapes/mesh_table.h"
 
-#include <algorithm>
-
+#include "tenon/mesh/mesh_shape.h"
 #include "tenon/mesh/read_mesh.h"
 
 namespace tenon::convert {
@@ -17,39 +16,9 @@ using robot::Index;
 
 namespace {
 
-Value extent_of(const std::vector<Vec3f>& points) {
-  Vec3f low = points.empty() ? Vec3f{} : points.front();
-  Vec3f high = low;
-  for (const Vec3f& point : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], point[i]);
-      high[i] = std::max(high[i], point[i]);
-    }
-  }
+Value extent_value(const std::vector<Vec3f>& points) {
+  const auto [low, high] = mesh::extent_of(points);
   return Value(std::vector<Vec3f>{low, high});
-}
-
-/// Of flat faces, for a mesh that brings none: polygons that no subdivision rounds are to have some
-/// (UsdGeomMesh). Along +Z where a face has no area.
-std::vector<Vec3f> face_normals(const mesh::PolygonMesh& mesh) {
-  std::vector<Vec3f> normals;
-  normals.reserve(mesh.face_counts.size());
-  const Vec3f* const points = mesh.points.data();
-  const std::int32_t* corner = mesh.face_points.data();
-  for (const std::int32_t count : mesh.face_counts) {
-    const Vec3d first = to_double(points[corner[0]]);
-    Vec3d area;
-    Vec3d before = to_double(points[corner[1]]) - first;
-    for (std::int32_t i = 2; i < count; ++i) {
-      const Vec3d next = to_double(points[corner[i]]) - first;
-      area = area + cross(before, next);
-      before = next;
-    }
-    const double size = length(area);
-    normals.push_back(size > 0 ? to_float(area * (1 / size)) : Vec3f{{0, 0, 1}});
-    corner += count;
-  }
-  return normals;
 }
 
 mesh::PolygonMesh polygons_of(const robot::MeshFile& file) {
@@ -67,9 +36,9 @@ mesh::PolygonMesh polygons_of(const robot::MeshFile& file) {
 MeshValues values_of(mesh::PolygonMesh mesh, const std::vector<Index>& materials) {
   MeshValues values;
   values.name = mesh.name;
-  values.extent = extent_of(mesh.points);
+  values.extent = extent_value(mesh.points);
   values.normals_interpolation = mesh.normals.empty() ? "uniform" : "faceVarying";
-  values.normals = Value(mesh.normals.empty() ? face_normals(mesh) : std::move(mesh.normals));
+  values.normals = Value(mesh.normals.empty() ? mesh::face_normals(mesh) : std::move(mesh.normals));
   values.points = Value(std::move(mesh.points));
   values.face_counts = Value(std::move(mesh.face_counts));
   values.face_points = Value(std::move(mesh.face_points));
