@@ -31,7 +31,7 @@ LIBRARIES = {
                     SYSTEM),
     "Eigen/*": ["tenon/math/*.cpp"],
     "boost/*": ["tenon/serve/hub.h", "tenon/serve/*.cpp"],
-    "fast_float/*": ["tenon/base/number_from_text.h"],
+    "fast_float/*": ["tenon/base/text/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],
     "lz4*.h": ["tenon/bytes/*.cpp"],
     "zlib.h": ["tenon/bytes/gzip.cpp"],

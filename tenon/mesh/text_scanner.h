@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tenon/base/number_from_text.h"
+#include "tenon/base/text/number_from_text.h"
 
 namespace tenon::mesh {
 

@@ -14,7 +14,7 @@
 #include "tenon/answers/prim_walk.h"
 #include "tenon/asset/converting/patch_model.h"
 #include "tenon/base/file_finding.h"
-#include "tenon/base/number_from_text.h"
+#include "tenon/base/text/number_from_text.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/file_kind.h"
 #include "tenon/convert/source/record.h"

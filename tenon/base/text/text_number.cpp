@@ -12,7 +12,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "tenon/base/number_from_text.h"
+#include "tenon/base/text/number_from_text.h"
 
 namespace tenon {
 namespace {

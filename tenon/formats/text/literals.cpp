@@ -11,7 +11,7 @@
 #include <array>
 #include <charconv>
 
-#include "tenon/base/number_from_text.h"
+#include "tenon/base/text/number_from_text.h"
 #include "tenon/base/text/quoted_text.h"
 #include "tenon/math/functions.h"
 
