@@ -15,7 +15,7 @@ namespace tenon::cli {
 struct UpdateArguments {
   std::string made_by;  ///< the verb that takes the options
   bool update = false;
-  std::string conflicts;  ///< empty: edits stay, and each run tells of them
+  std::string conflicts = {};  ///< empty: edits stay, and each run tells of them
 
   void add_to(const Command& verb);
   UpdateChoice choice() const { return {keep(), conflicts == "edits"}; }

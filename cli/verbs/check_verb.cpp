@@ -16,6 +16,7 @@
 #include "tenon/asset/checking/check_assets.h"
 #include "tenon/asset/checking/checked_json.h"
 #include "tenon/asset/checking/sarif.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/check/rule.h"
 #include "tenon/diff/unified_diff.h"
@@ -94,10 +95,6 @@ void print_findings(const CheckedAssets& outcome, const Globals& globals, bool t
   for (const std::string& line : diagnostic_lines(findings, color, globals.verbose)) {
     to_stderr ? say_aside(line) : print_colored(line + "\n");
   }
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 std::string summary_of(const FindingCounts& counts, const CheckedAssets& outcome,
