@@ -160,8 +160,8 @@ std::string foreign_format_advice(ForeignFormat format, const std::string& name)
     case ForeignFormat::Xacro:
       return "run `xacro " + name + " > out.urdf`, then `tenon convert out.urdf out/`";
     case ForeignFormat::Sdf:
-      return "tenon converts URDF and MJCF: export the model as one of them, then run `tenon "
-             "convert` on it";
+      return "SDF cannot be converted: export the model as URDF or MJCF, then run `tenon convert` "
+             "on it";
     case ForeignFormat::Collada:
     case ForeignFormat::Obj:
     case ForeignFormat::Stl:

@@ -53,26 +53,28 @@ void UrdfReader::report_missing_mesh(const std::string& written, pugi::xml_node 
   missing_meshes_.push_back(std::move(missing));
 }
 
-void UrdfReader::report_missing_meshes() {
+void report_missing_meshes(XmlReader& xml, const std::vector<MissingMesh>& meshes) {
   constexpr const char* kOptions[] = {"--allow-read", "--package"};
+  struct Group {
+    const MissingMesh* first = nullptr;
+    std::set<std::string> names;
+  };
   std::set<std::string> options[std::size(kOptions)];
-  std::map<std::pair<std::string, std::string>, std::vector<const MissingMesh*>> groups;
-  for (const MissingMesh& missing : missing_meshes_) {
+  std::map<std::pair<std::string, std::string>, Group> groups;
+  for (const MissingMesh& missing : meshes) {
     for (std::size_t i = 0; i < std::size(kOptions); ++i) {
       if (std::string one = option_of(missing.advice, kOptions[i]); !one.empty()) {
         options[i].insert(std::move(one));
       }
     }
-    groups[{missing.rule, folder_of(missing.written)}].push_back(&missing);
+    Group& group = groups[{missing.rule, folder_of(missing.written)}];
+    group.first = group.first ? group.first : &missing;
+    group.names.insert(missing.written);
   }
-  for (const MissingMesh& missing : missing_meshes_) {
-    const auto& group = groups[{missing.rule, folder_of(missing.written)}];
-    std::set<std::string> names;
-    for (const MissingMesh* one : group) {
-      names.insert(one->written);
-    }
+  for (const MissingMesh& missing : meshes) {
+    const auto& [first, names] = groups[{missing.rule, folder_of(missing.written)}];
     const bool together = names.size() > kNamedOneByOne;
-    if (together && group.front() != &missing) {
+    if (together && first != &missing) {
       continue;
     }
     std::string advice = missing.advice;
@@ -89,7 +91,7 @@ void UrdfReader::report_missing_meshes() {
                   ", the first is \"" + missing.written.substr(folder_of(missing.written).size()) +
                   "\"; their shapes are skipped"
             : missing.message + "; the shape is skipped";
-    xml_.warn(missing.element, missing.rule.c_str(), what, advice, Severity::Error);
+    xml.warn(missing.element, missing.rule.c_str(), what, advice, Severity::Error);
   }
 }
 

@@ -84,7 +84,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
   for (const pugi::xml_node child : robot.children("link")) {
     TENON_CHECK(read_link(child));
   }
-  report_missing_meshes();
+  report_missing_meshes(xml_, missing_meshes_);
   for (const pugi::xml_node child : robot.children("joint")) {
     TENON_CHECK(read_joint(child));
   }

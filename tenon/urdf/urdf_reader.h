@@ -17,6 +17,18 @@ namespace tenon::urdf {
 void report_guess(XmlReader& xml, pugi::xml_node element, const std::string& what,
                   const std::string& file, std::string advice);
 
+/// A mesh file that a description names and that cannot be read.
+struct MissingMesh {
+  pugi::xml_node element;
+  std::string written;  ///< the name in the description
+  std::string rule;
+  std::string message;
+  std::string advice;
+};
+
+/// Reports them, after all links: many of one folder in one finding.
+void report_missing_meshes(XmlReader& xml, const std::vector<MissingMesh>& meshes);
+
 /// One reading of a description: several walks through the elements below <robot>.
 class UrdfReader {
  public:
@@ -38,8 +50,6 @@ class UrdfReader {
 
   // missing_meshes.cpp
   void report_missing_mesh(const std::string& written, pugi::xml_node element);
-  /// After all links.
-  void report_missing_meshes();
 
   // materials.cpp
   void find_material_definitions(pugi::xml_node robot);
@@ -60,14 +70,6 @@ class UrdfReader {
 
   // sensors.cpp, after what Gazebo says
   void read_sensor(pugi::xml_node element);
-
-  struct MissingMesh {
-    pugi::xml_node element;
-    std::string written;
-    std::string rule;
-    std::string message;
-    std::string advice;
-  };
 
   XmlReader& xml_;
   MeshPaths paths_;

@@ -45,7 +45,7 @@ FOREIGN = {
                    "tenon convert robot.urdf out/"),
     "model.xml": (MJCF, "an MJCF model", "tenon convert model.xml out/"),
     "world.sdf": ('<?xml version="1.0"?><sdf version="1.9"><model name="m"/></sdf>',
-                  "an SDF model", "tenon converts URDF and MJCF"),
+                  "an SDF model", "export the model as URDF or MJCF"),
     "robot.urdf.xacro": ('<robot name="r" xmlns:xacro="x"><xacro:macro name="m"/></robot>',
                          "a xacro file", "xacro robot.urdf.xacro > out.urdf"),
     "can.obj": ("# a can\n" + TETRAHEDRON, "an OBJ mesh", "can.obj"),

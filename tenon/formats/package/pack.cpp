@@ -103,6 +103,15 @@ std::string path_to(const std::string& target, const std::string& own_name,
   return path + inner;
 }
 
+/// What a finding says of files that a package need not hold.
+std::string foreign(const std::string& type, std::size_t count) {
+  const std::string which =
+      count == 1 ? "is" : "and " + std::to_string(count - 1) + " more of type " + type + " are";
+  return which +
+         " packed, but packages are specified to hold layers and images alone; what such files "
+         "name themselves is not packed";
+}
+
 class Packer {
  public:
   Packer(const bytes::AssetResolver& resolver, const bytes::ReadPolicy& policy,
@@ -141,7 +150,10 @@ class Packer {
       pending_.pop_front();
       TENON_CHECK(add_file(next));
     }
-    report_foreign();
+    for (const auto& [type, files] : foreign_) {  // one finding for all files of a type
+      report(Severity::Warning, "package.file-type", files.front(), foreign(type, files.size()),
+             "share the folder instead where a reader refuses the package");
+    }
     return write();
   }
 
@@ -163,19 +175,6 @@ class Packer {
       foreign_[std::filesystem::path(file.name).extension().string()].push_back(file);
     }
     files_.emplace_back(file.name, std::move(contents));
-  }
-
-  /// One finding for all files of a type.
-  void report_foreign() {
-    for (const auto& [type, files] : foreign_) {
-      const std::size_t more = files.size() - 1;
-      report(Severity::Warning, "package.file-type", files.front(),
-             (more == 0 ? std::string("is")
-                        : "and " + std::to_string(more) + " more of type " + type + " are") +
-                 " packed, but packages are specified to hold layers and images alone; what such "
-                 "files name themselves is not packed",
-             "share the folder instead where a reader refuses the package");
-    }
   }
 
   void report(Severity severity, const char* rule, const Pending& file, const std::string& what,
