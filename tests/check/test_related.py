@@ -103,16 +103,6 @@ class Related(unittest.TestCase):
 
 
 class OtherVerbs(unittest.TestCase):
-    def test_what_a_body_passed_through_is_a_field(self):
-        scene = SCENES / "portability.tunnel.usda"
-        answer = json.loads(run("sim", scene, "--engine", "mujoco", "--duration", "0.5",
-                                "--json").stdout)
-        passed = [d for d in answer["diagnostics"] if d["rule"] == "sim.passed-through"]
-        self.assertTrue(passed)
-        for finding in passed:
-            self.assertEqual(missing_in(finding), set())
-            self.assertEqual([row["role"] for row in finding["related"]], ["collider"])
-
     def test_an_edit_that_is_refused_names_the_other_prim(self):
         with tempfile.TemporaryDirectory() as folder:
             asset = pathlib.Path(folder) / "a.usda"
