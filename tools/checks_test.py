@@ -421,14 +421,21 @@ class Tidy(unittest.TestCase):
             with self.subTest(other=other):
                 self.assertEqual(tidy.code_of(self.CODE), tidy.code_of(other))
 
+    def test_messages(self):
+        for before, after in (('f("no mesh", 1);', 'f("there is "\n  "no mesh", 1);'),
+                              ('f("//one");', 'f("//two");')):
+            self.assertEqual(tidy.code_of(before), tidy.code_of(after))
+
     def test_code(self):
         cases = [
             (self.CODE, "int a() { return 2; }  // one\n"),
             (self.CODE, "int a() { return 1; }  // NOLINT(some-check)\n"),
-            ('f("//one");', 'f("//two");'),
+            ('f("//one", 1);', 'f("//one", 2);'),
+            ('f("%d\\n");', 'f("%s\\n");'),
+            ('#include "a.h"', '#include "b.h"'),
             ('f(R"x(a)" // 1)x");', 'f(R"x(a)" // 2)x");'),
             ("f('\"', 1);  // it's", "f('\"', 2);  // it's"),
-            ("f(1'000'000, \"//1\");", "f(1'000'000, \"//2\");"),
+            ("f(1'000'000, \"//1\", 1);", "f(1'000'000, \"//1\", 2);"),
             ("f(/* 1 */ 1);", "f(/* 1 */ 2);"),
         ]
         for before, after in cases:

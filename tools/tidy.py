@@ -26,8 +26,9 @@ ROOT = source_files.ROOT
 RECORD = os.path.join(ROOT, "tools/tidied.txt")
 DATABASE = os.path.join(ROOT, "build/tidy")
 FOLDERS = ("tenon/", "cli/", "worker/")
-# A comment, or text that may hold what looks like one: raw text, text, a character.
-COMMENT = re.compile(r"//(?:\\\n|[^\n])*|/\*.*?\*/"
+# A comment, an included name, or text that may hold what looks like a comment: raw text, text, a
+# character.
+COMMENT = re.compile(r"#include[^\n]*|//(?:\\\n|[^\n])*|/\*.*?\*/"
                      r'|R"([^()\\\s]*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"'
                      r"|(?<![0-9a-fA-F])'(?:[^'\\\n]|\\.)+'", re.DOTALL)
 FINDING = re.compile(r"^(?P<file>/[^:]+):\d+:\d+: (?:error|warning): ")
@@ -67,11 +68,15 @@ def changed_since(commit):
 
 
 def code_of(text):
-    """The words of a C++ file without its comments and line breaks; NOLINT comments stay."""
+    """The words of a C++ file without comments, line breaks and what its messages say: plain text
+    in quotes, in one piece or several, is one word. NOLINT comments stay."""
     def kept(found):
         word = found.group(0)
+        if word.startswith('"') and "\\" not in word:
+            return ' "" '
         return " " if word[:2] in ("//", "/*") and "NOLINT" not in word else word
-    return COMMENT.sub(kept, text).split()
+    words = COMMENT.sub(kept, text).split()
+    return [word for word, before in zip(words, [None, *words]) if not word == before == '""']
 
 
 def has_changed_code(name, commit):
