@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 namespace tenon::formats {
@@ -150,7 +149,6 @@ std::string_view foreign_format_name(ForeignFormat format) {
 }
 
 std::string foreign_format_advice(ForeignFormat format, const std::string& name) {
-  const std::string stem = std::filesystem::path(name).stem().string();
   switch (format) {
     case ForeignFormat::None:
       return {};
@@ -162,11 +160,13 @@ std::string foreign_format_advice(ForeignFormat format, const std::string& name)
     case ForeignFormat::Sdf:
       return "SDF cannot be converted: export the model as URDF or MJCF, then run `tenon convert` "
              "on it";
-    case ForeignFormat::Collada:
     case ForeignFormat::Obj:
     case ForeignFormat::Stl:
     case ForeignFormat::Gltf:
     case ForeignFormat::Ply:
+      return "run `tenon new scene.usda`, then `tenon add scene.usda /World/part=mesh --file " +
+             name + "`";
+    case ForeignFormat::Collada:
       return "name it as the <mesh filename=\"" + name +
              "\"/> of a link in a URDF, and run `tenon "
              "convert` on that";

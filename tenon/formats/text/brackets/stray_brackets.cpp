@@ -118,8 +118,11 @@ Offsets closed_roots(std::string_view text, std::size_t fault) {
     }
     if (bracket.sign == '{') {
       ++depth;
-    } else if (bracket.sign == '}' && depth > 0 && --depth == 0) {
-      closed.push_back(bracket.offset);
+    } else if (bracket.sign == '}' && depth > 0) {
+      --depth;
+      if (depth == 0) {
+        closed.push_back(bracket.offset);
+      }
     }
   }
   if (closed.size() > 3) {
