@@ -153,7 +153,7 @@ std::function<void(std::vector<bytes::ReplacedFile>)> keep_for_undo(const EditOf
     std::error_code error;
     const fs::path asset = fs::weakly_canonical(bytes::absolute_file_path(edit.asset), error);
     if (const auto log = bytes::UndoLog::of_user(); log && !error) {
-      (void)log->add({edit.verb, asset.string(), std::move(files)});
+      [[maybe_unused]] const auto kept = log->add({edit.verb, asset.string(), std::move(files)});
     }
   };
 }

@@ -160,8 +160,8 @@ Result<std::string> encode_base(const structure::Package& package, BaseChanges c
   for (const auto& [name, file] : package.files) {
     if (file.layer != nullptr) {
       const auto changed = changes.layers.find(name);
-      layer::Layer layer = without_arrays(
-          changed == changes.layers.end() ? *file.layer : std::move(changed->second));
+      layer::Layer layer =
+          without_arrays(changed == changes.layers.end() ? *file.layer : changed->second);
       structure::remove_note(layer);
       TENON_TRY(std::string encoded, formats::encode_layer(layer, formats::LayerFormat::Crate));
       layers.emplace_back(name + kLayerEnding, std::move(encoded));
