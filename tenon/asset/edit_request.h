@@ -22,10 +22,10 @@ struct EditRequest {
   std::vector<std::string> drive;
   std::vector<std::string> mimic;
   std::vector<std::string> filter;
-  std::vector<std::string> layer;       ///< NAME=VALUE: metadata of the stage
-  bool filter_overlaps = false;  ///< every pair of bodies that overlap at the start
-  bool all_engines = false;      ///< what one engine has a form of its own for is edited there, too
-  std::string type;              ///< of attributes that assignments create
+  std::vector<std::string> layer;  ///< NAME=VALUE: metadata of the stage
+  bool filter_overlaps = false;    ///< every pair of bodies that overlap at the start
+  bool all_engines = false;  ///< what one engine has a form of its own for is edited there, too
+  std::string type;          ///< of attributes that assignments create
 };
 
 /// The edits in a fixed order: schemas are removed and applied first, so that the properties that
