@@ -245,14 +245,22 @@ Result<void> check_layer_name(const std::string& path, LayerFormat format) {
 
 Result<void> write_asset(const structure::Package& package, const std::string& folder,
                          structure::WriteOptions options, const std::string& verb) {
-  if (options.in_place) {
-    options.replaced = keep_for_undo({verb, folder + "/" + package.interface});
+  std::vector<bytes::ReplacedFile> replaced;
+  options.replaced = options.in_place ? &replaced : nullptr;
+  Result<void> written = write_with_base(package, folder, options);
+  if (!replaced.empty()) {
+    keep_for_undo({verb, folder + "/" + package.interface})(std::move(replaced));
   }
-  return write_with_base(package, folder, options);
+  return written;
 }
 
 Result<void> write_edits(const std::vector<EditedFile>& files, const EditOf& edit) {
-  return write_files(files, keep_for_undo(edit));
+  std::vector<bytes::ReplacedFile> replaced;
+  Result<void> written = write_files(files, &replaced);
+  if (!replaced.empty()) {
+    keep_for_undo(edit)(std::move(replaced));
+  }
+  return written;
 }
 
 Result<void> write_undone(const UndoneEdit& edit) {

@@ -36,13 +36,14 @@ Result<EditedFile> new_file(const layer::Layer& layer) {
 }
 
 Result<void> write_files(const std::vector<EditedFile>& files,
-                         const std::function<void(std::vector<bytes::ReplacedFile>)>& replaced) {
+                         std::vector<bytes::ReplacedFile>* replaced) {
   bytes::FileTransaction transaction;
   for (const EditedFile& file : files) {
     file.removed ? transaction.remove(file.path, file.path.substr(0, file.path.rfind('/')))
                  : transaction.put(file.path, file.after);
   }
-  return transaction.commit({.in_place = true, .make_folders = true, .replaced = replaced});
+  return transaction.commit(
+      {.in_place = true, .make_folders = true, .replaced = bytes::replaced_into(replaced)});
 }
 
 }  // namespace tenon

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,9 +32,8 @@ Result<EditedFile> edited_file(const bytes::FileBytes& bytes, const layer::Layer
 Result<EditedFile> new_file(const layer::Layer& layer);
 
 /// Writes all files in one step, also when the process is killed (bytes/write/file_transaction.h).
-/// `replaced` is told what the files held (bytes::CommitOptions).
-Result<void> write_files(
-    const std::vector<EditedFile>& files,
-    const std::function<void(std::vector<bytes::ReplacedFile>)>& replaced = nullptr);
+/// `replaced` is given what the files held (bytes::CommitOptions).
+Result<void> write_files(const std::vector<EditedFile>& files,
+                         std::vector<bytes::ReplacedFile>* replaced = nullptr);
 
 }  // namespace tenon

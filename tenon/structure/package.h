@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -60,8 +59,8 @@ struct WriteOptions {
   bool force = false;
   bool in_place = false;         ///< the folder may be that of the asset that is read
   bool can_be_in_place = false;  ///< messages may name --in-place
-  /// Told what the files of a folder that exists held (bytes::CommitOptions).
-  std::function<void(std::vector<bytes::ReplacedFile>)> replaced = nullptr;
+  /// Is given what the files of a folder that exists held (bytes::CommitOptions).
+  std::vector<bytes::ReplacedFile>* replaced = nullptr;
 };
 
 /// Puts the package, with its layers stored, into `folder`. A new folder is written under a hidden

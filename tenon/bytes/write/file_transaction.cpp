@@ -430,4 +430,11 @@ Result<void> check_holds_no_input(const std::string& folder) {
   return {};
 }
 
+std::function<void(std::vector<ReplacedFile>)> replaced_into(std::vector<ReplacedFile>* files) {
+  if (files == nullptr) {
+    return nullptr;
+  }
+  return [files](std::vector<ReplacedFile> replaced) { *files = std::move(replaced); };
+}
+
 }  // namespace tenon::bytes

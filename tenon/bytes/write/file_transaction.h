@@ -28,6 +28,9 @@ struct CommitOptions {
   std::size_t most_replaced = limits::kUndoEditBytes;
 };
 
+/// What puts the files that it is told of into `files`; nothing where `files` is null.
+std::function<void(std::vector<ReplacedFile>)> replaced_into(std::vector<ReplacedFile>* files);
+
 /// Files that change together: all of them or none.
 ///
 /// New contents are written beside their places, without a name where the file system can do so,
