@@ -118,7 +118,7 @@ def printed_by(place):
 
 
 def commands(words):
-    """-> (verb, the options that stand in its command)."""
+    """-> (verb, the options of its command)."""
     for match in VERB.finditer(words):
         rest = words[match.end():]
         end = END.search(rest)
@@ -126,7 +126,7 @@ def commands(words):
 
 
 def loose_options(words):
-    """-> options that stand in no command."""
+    """-> options outside of any command."""
     for match in VERB.finditer(words):
         rest = words[match.end():]
         end = END.search(rest)

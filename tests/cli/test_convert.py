@@ -68,7 +68,7 @@ class BadMeshes(unittest.TestCase):
 
 
 class NamesOfImages(unittest.TestCase):
-    """An image whose name no asset path can hold is skipped; what is written can be read."""
+    """An image whose name no asset path can hold is skipped; the result can be read."""
 
     MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
     ROBOT = ('<robot name="r"><material name="m"><texture filename="a%s.png"/></material>'

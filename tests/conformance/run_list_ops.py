@@ -36,7 +36,7 @@ def run_published(tenon, results):
                             compare(tenon, case["chain"], case["combined_reduced"]))
 
 
-# Strongest first, and what is left of them as one edit.
+# Strongest first, and the one edit that they amount to.
 OWN_CHAINS = (
     ([{"explicit_items": [1, 2]}], {"explicit_items": [1, 2]}),
     ([{"prepended_items": [3]}, {"explicit_items": [1, 2]}], {"explicit_items": [3, 1, 2]}),

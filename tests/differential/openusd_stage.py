@@ -269,7 +269,7 @@ class Dumper:
 
     def prim_metadata(self, prim):
         said = self.metadata(prim)
-        for name in ("clips", "clipSets"):  # GetAllAuthoredMetadata passes over them
+        for name in ("clips", "clipSets"):  # GetAllAuthoredMetadata skips them
             if prim.HasAuthoredMetadata(name):
                 said[name] = self.value(prim.GetMetadata(name))
         return said

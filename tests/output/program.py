@@ -172,7 +172,7 @@ PRINTING = {
     "sweep": ["sweep", "--help"],  # the rest is printed by Python
     "test-runner": ["test-runner", "layer", "scene.usda"],
     "tree": ["tree", "scene.usda"],
-    "undo": ["undo", "--help"],  # the rest stands in test_undo.py
+    "undo": ["undo", "--help"],  # the rest is in test_undo.py
     "variant": ["variant", "scene.usda"],
     "version": ["version"],
     "view": ["view", "scene.usda", "--for", "0"] if has_viewer() else ["view", "--help"],
