@@ -148,14 +148,15 @@ void keep_taken(int descriptor, int flags) {
 }
 
 /// That it cannot be kept is no fault of the edit; tenon undo says it then.
-std::function<void(std::vector<bytes::ReplacedFile>)> keep_for_undo(const EditOf& edit) {
-  return [edit](std::vector<bytes::ReplacedFile> files) {
-    std::error_code error;
-    const fs::path asset = fs::weakly_canonical(bytes::absolute_file_path(edit.asset), error);
-    if (const auto log = bytes::UndoLog::of_user(); log && !error) {
-      [[maybe_unused]] const auto kept = log->add({edit.verb, asset.string(), std::move(files)});
-    }
-  };
+void keep_for_undo(const EditOf& edit, std::vector<bytes::ReplacedFile> replaced) {
+  if (replaced.empty()) {
+    return;
+  }
+  std::error_code error;
+  const fs::path asset = fs::weakly_canonical(bytes::absolute_file_path(edit.asset), error);
+  if (const auto log = bytes::UndoLog::of_user(); log && !error) {
+    [[maybe_unused]] const auto kept = log->add({edit.verb, asset.string(), std::move(replaced)});
+  }
 }
 
 }  // namespace
@@ -208,10 +209,12 @@ Result<void> Outputs::commit() const {
       transaction.put(path, contents);
     }
   }
+  std::vector<bytes::ReplacedFile> replaced;
   TENON_CHECK(transaction.commit({.in_place = in_place_,
                                   .make_folders = make_folders_,
                                   .check = check_,
-                                  .replaced = in_place_ ? keep_for_undo(edit_) : nullptr}));
+                                  .replaced = in_place_ ? &replaced : nullptr}));
+  keep_for_undo(edit_, std::move(replaced));
   for (const auto& [path, contents] : files_) {
     if (path == "-") {
       print_data(contents);
@@ -248,18 +251,14 @@ Result<void> write_asset(const structure::Package& package, const std::string& f
   std::vector<bytes::ReplacedFile> replaced;
   options.replaced = options.in_place ? &replaced : nullptr;
   Result<void> written = write_with_base(package, folder, options);
-  if (!replaced.empty()) {
-    keep_for_undo({verb, folder + "/" + package.interface})(std::move(replaced));
-  }
+  keep_for_undo({verb, folder + "/" + package.interface}, std::move(replaced));
   return written;
 }
 
 Result<void> write_edits(const std::vector<EditedFile>& files, const EditOf& edit) {
   std::vector<bytes::ReplacedFile> replaced;
   Result<void> written = write_files(files, &replaced);
-  if (!replaced.empty()) {
-    keep_for_undo(edit)(std::move(replaced));
-  }
+  keep_for_undo(edit, std::move(replaced));
   return written;
 }
 

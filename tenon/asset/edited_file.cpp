@@ -42,8 +42,7 @@ Result<void> write_files(const std::vector<EditedFile>& files,
     file.removed ? transaction.remove(file.path, file.path.substr(0, file.path.rfind('/')))
                  : transaction.put(file.path, file.after);
   }
-  return transaction.commit(
-      {.in_place = true, .make_folders = true, .replaced = bytes::replaced_into(replaced)});
+  return transaction.commit({.in_place = true, .make_folders = true, .replaced = replaced});
 }
 
 }  // namespace tenon

@@ -174,7 +174,7 @@ class OldFolder {
                                  TENON_CHECK(look());
                                  return stale == stale_ ? Result<void>() : changed();
                                },
-                               .replaced = bytes::replaced_into(options_.replaced)});
+                               .replaced = options_.replaced});
   }
 
  private:

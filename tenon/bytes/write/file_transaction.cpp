@@ -109,7 +109,7 @@ class Commit {
     }
     TENON_CHECK(write_beside());
     const bool alone = places_.size() == 1 && removals_.empty();
-    const bool asked = options_.in_place || options_.check || options_.replaced;
+    const bool asked = options_.in_place || options_.check || options_.replaced != nullptr;
     if (alone && !asked && transaction_.held_.empty()) {
       return finish(files_.front().rename_to(places_.front().target));
     }
@@ -120,7 +120,7 @@ class Commit {
     std::optional<std::vector<ReplacedFile>> replaced_files = read_replaced();
     TENON_CHECK(finish(alone ? files_.front().rename_to(places_.front().target) : exchange()));
     if (replaced_files) {
-      options_.replaced(*std::move(replaced_files));
+      *options_.replaced = *std::move(replaced_files);
     }
     return {};
   }
@@ -260,7 +260,7 @@ class Commit {
   /// What the files hold, while nobody else may write; nothing where nobody asks, one cannot be
   /// read or they are too large.
   std::optional<std::vector<ReplacedFile>> read_replaced() const {
-    if (!options_.replaced) {
+    if (options_.replaced == nullptr) {
       return std::nullopt;
     }
     std::vector<ReplacedFile> files;
@@ -428,13 +428,6 @@ Result<void> check_holds_no_input(const std::string& folder) {
     }
   }
   return {};
-}
-
-std::function<void(std::vector<ReplacedFile>)> replaced_into(std::vector<ReplacedFile>* files) {
-  if (files == nullptr) {
-    return nullptr;
-  }
-  return [files](std::vector<ReplacedFile> replaced) { *files = std::move(replaced); };
 }
 
 }  // namespace tenon::bytes

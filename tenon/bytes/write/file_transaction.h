@@ -22,14 +22,11 @@ struct CommitOptions {
   bool make_folders = false;
   /// Called once no one else can write, before anything changes; its Error ends the commit.
   std::function<Result<void>()> check = nullptr;
-  /// Told, when all is written, which files changed and what they held before. Not called where
-  /// they held more than `most_replaced` bytes. Devices are not among them.
-  std::function<void(std::vector<ReplacedFile>)> replaced = nullptr;
+  /// Is given, when all is written, which files changed and what they held before. Left as it is
+  /// where they held more than `most_replaced` bytes. Devices are not among them.
+  std::vector<ReplacedFile>* replaced = nullptr;
   std::size_t most_replaced = limits::kUndoEditBytes;
 };
-
-/// What puts the files that it is told of into `files`; nothing where `files` is null.
-std::function<void(std::vector<ReplacedFile>)> replaced_into(std::vector<ReplacedFile>* files);
 
 /// Files that change together: all of them or none.
 ///
