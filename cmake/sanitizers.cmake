@@ -13,6 +13,11 @@ if(TENON_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=${tenon_unchecked}
                       -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # libasan.so calls dlopen in place of the program, and the loader then searches the library
+    # folders of libasan.so, where no engine is. Clang links it statically by itself.
+    add_link_options(-static-libasan)
+  endif()
 endif()
 if(TENON_SANITIZE_THREADS)
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
