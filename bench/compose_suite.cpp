@@ -24,7 +24,7 @@ std::vector<stage::Stage> open_all(const std::vector<std::string>& files) {
   std::vector<stage::Stage> stages;
   for (const std::string& file : files) {
     Diagnostics diagnostics;
-    if (auto opened = open_stage(file, {}, diagnostics)) {
+    if (auto opened = tenon::open(file, {}, diagnostics)) {
       stages.push_back(*std::move(opened));
     }
   }

@@ -58,7 +58,7 @@ std::vector<stage::Prim> visited_prims(const stage::Stage& stage, bool instance_
 
 stage::Stage time_open(Report& report, const std::string& file) {
   Diagnostics diagnostics;
-  return value_or_fail(report.time("open", [&] { return open_stage(file, {}, diagnostics); }));
+  return value_or_fail(report.time("open", [&] { return tenon::open(file, {}, diagnostics); }));
 }
 
 std::vector<stage::Prim> time_traverse(Report& report, const stage::Stage& stage,

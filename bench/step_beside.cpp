@@ -80,7 +80,7 @@ void time_in_turns(Report& report, std::size_t chunks, const Laps& laps) {
 int step_beside(const std::string& name, int count, char** values, TimeSteps time_steps) {
   const StepOptions options = read_options(name, count, values);
   Diagnostics diagnostics;
-  const stage::Stage stage = value_or_fail(open_stage(options.file, {}, diagnostics));
+  const stage::Stage stage = value_or_fail(tenon::open(options.file, {}, diagnostics));
   const scene::PhysicsScene scene = physics::read_physics(stage, {}, diagnostics);
   Report report(name);
   time_steps(report, scene, options);

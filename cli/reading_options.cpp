@@ -29,7 +29,7 @@ Result<ReadableAsset> open_with_readings(const AssetArguments& asset,
                                          Diagnostics& diagnostics) {
   TENON_TRY(const physics::Readings readings, chosen_readings(assignments));
   TENON_TRY(stage::Stage stage,
-            open_stage(asset.asset, with_readings(asset.open_options(), readings), diagnostics));
+            tenon::open(asset.asset, with_readings(asset.open_options(), readings), diagnostics));
   return ReadableAsset{readings, std::move(stage)};
 }
 

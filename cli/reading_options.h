@@ -23,7 +23,7 @@ struct ReadableAsset {
   physics::Readings readings;
   stage::Stage stage;
 };
-/// Errors: those of chosen_readings and open_stage.
+/// Errors: those of chosen_readings and tenon::open.
 Result<ReadableAsset> open_with_readings(const AssetArguments& asset,
                                          const std::vector<std::string>& assignments,
                                          Diagnostics& diagnostics);

@@ -114,8 +114,15 @@ Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
   return pack_layer(std::move(layer), path, options, {}, diagnostics);
 }
 
-Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
-                                Diagnostics& diagnostics) {
+Result<stage::Stage> open(const std::string& path, const OpenOptions& options) {
+  Diagnostics found;
+  TENON_TRY(stage::Stage stage, open(path, options, found));
+  stage.set_diagnostics(std::move(found));
+  return stage;
+}
+
+Result<stage::Stage> open(const std::string& path, const OpenOptions& options,
+                          Diagnostics& diagnostics) {
   TENON_TRY(StageSources sources, open_sources(path, options));
   TENON_TRY(auto stage, compose_stage(sources, options));
   if (!options.physics_variant.empty() && options.physics_below) {

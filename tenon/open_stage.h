@@ -74,9 +74,12 @@ Result<layer::LayerPtr> open_layer(const std::string& path, const OpenOptions& o
 Result<std::string> pack_layer(layer::Layer layer, const std::string& path,
                                const OpenOptions& options, Diagnostics& diagnostics);
 
-/// Opens a file and composes it. Recoverable findings, composition errors included, go to
-/// `diagnostics`.
-Result<stage::Stage> open_stage(const std::string& path, const OpenOptions& options,
-                                Diagnostics& diagnostics);
+/// Opens a file and composes it. Recoverable findings, composition errors included, are in the
+/// stage's `diagnostics()`.
+Result<stage::Stage> open(const std::string& path, const OpenOptions& options = {});
+
+/// The same for callers that collect the findings of several steps: they go to `diagnostics`.
+Result<stage::Stage> open(const std::string& path, const OpenOptions& options,
+                          Diagnostics& diagnostics);
 
 }  // namespace tenon

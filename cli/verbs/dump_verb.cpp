@@ -34,7 +34,7 @@ int run_dump(const Globals& globals, const DumpArguments& options) {
     return report.fail(fallbacks.error());
   }
   open.variant_fallbacks = *std::move(fallbacks);
-  auto stage = open_stage(options.asset.asset, open, report.diagnostics);
+  auto stage = tenon::open(options.asset.asset, open, report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

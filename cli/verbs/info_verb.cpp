@@ -74,7 +74,7 @@ void print_info(const Json& info) {
 
 int run_info(const Globals& globals, const AssetArguments& arguments) {
   Report report(globals, "info", arguments.asset);
-  auto stage = open_stage(arguments.asset, arguments.open_options(), report.diagnostics);
+  auto stage = tenon::open(arguments.asset, arguments.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

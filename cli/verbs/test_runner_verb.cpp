@@ -61,7 +61,7 @@ struct ValueOptions {
 Result<std::string> values_text(const ValueOptions& options, Diagnostics& diagnostics) {
   TENON_TRY(const Path path, Path::parse(options.attribute));
   TENON_TRY(const stage::Stage stage,
-            open_stage(options.asset.asset, options.asset.open_options(), diagnostics));
+            tenon::open(options.asset.asset, options.asset.open_options(), diagnostics));
   const stage::Attribute attribute = stage.prim(path.prim()).attribute(path.name());
   if (!path.is_property() || !attribute.is_defined()) {
     return Error(ErrorCode::NotFound,

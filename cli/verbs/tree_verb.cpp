@@ -117,7 +117,7 @@ int show_forest(const stage::Stage& stage, Report& report) {
 
 int run_tree(const Globals& globals, const TreeArguments& options) {
   Report report(globals, "tree", options.asset.asset);
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  auto stage = tenon::open(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

@@ -54,7 +54,7 @@ Result<VariantSelection> select(const VariantArguments& options, Report& report)
 }
 
 int list_variants(Report& report, const VariantArguments& options) {
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  auto stage = tenon::open(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

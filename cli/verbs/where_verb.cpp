@@ -54,7 +54,7 @@ int run_where(const Globals& globals, const WhereArguments& options) {
   if (!object) {
     return report.fail(object.error());
   }
-  auto stage = open_stage(options.asset.asset, options.asset.open_options(), report.diagnostics);
+  auto stage = tenon::open(options.asset.asset, options.asset.open_options(), report.diagnostics);
   if (!stage) {
     return report.fail(stage.error());
   }

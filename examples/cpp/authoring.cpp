@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   }
 
   tenon::Diagnostics diagnostics;
-  const auto stage = or_exit(tenon::open_stage(argv[1], {}, diagnostics));
+  const auto stage = or_exit(tenon::open(argv[1], {}, diagnostics));
   const auto scene = tenon::physics::read_physics(stage, tenon::read_options(), diagnostics);
   tell(diagnostics);
   for (const tenon::scene::Body& body : scene.bodies) {

@@ -22,8 +22,7 @@ tenon::Result<void> convert(const std::string& robot, const fs::path& folder) {
   TENON_CHECK(tenon::structure::write_package(asset.package, folder.string()));
 
   const std::string interface = (folder / asset.package.interface).string();
-  TENON_TRY(const auto stage,
-            tenon::open_stage(interface, {.physics_variant = "physics"}, diagnostics));
+  TENON_TRY(const auto stage, tenon::open(interface, {.physics_variant = "physics"}, diagnostics));
   const auto scene = tenon::physics::read_physics(stage, tenon::read_options(), diagnostics);
   tell(diagnostics);
   std::printf("%s: %zu links, %zu bodies, %zu joints in %zu files\n",

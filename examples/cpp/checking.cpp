@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   std::printf("files to correct: %zu\n", files.size());
 
   tenon::Diagnostics diagnostics;
-  const auto stage = or_exit(tenon::open_stage(argv[1], options.open, diagnostics));
+  const auto stage = or_exit(tenon::open(argv[1], options.open, diagnostics));
   const std::string json =
       or_exit(tenon::explain(stage, argv[2], {}, options.readings, diagnostics));
   std::printf("%s\n", json.c_str());

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   tenon::Diagnostics diagnostics;
-  const auto stage = or_exit(tenon::open_stage(argv[1], {}, diagnostics));
+  const auto stage = or_exit(tenon::open(argv[1], {}, diagnostics));
   const PhysicsScene scene =
       tenon::physics::read_physics(stage, tenon::read_options(), diagnostics);
   World world = or_exit(tenon::make_world(

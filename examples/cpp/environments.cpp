@@ -16,8 +16,7 @@ int main(int argc, char** argv) {
   }
   using tenon::scene::Index;
   tenon::Diagnostics diagnostics;
-  const auto stage =
-      or_exit(tenon::open_stage(argv[1], {.physics_variant = "physics"}, diagnostics));
+  const auto stage = or_exit(tenon::open(argv[1], {.physics_variant = "physics"}, diagnostics));
   const tenon::scene::PhysicsScene scene =
       tenon::physics::read_physics(stage, tenon::read_options(), diagnostics);
   auto worlds = or_exit(tenon::make_environments("mujoco", scene, {.count = 16}, diagnostics));

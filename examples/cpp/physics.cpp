@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   }
   tenon::Diagnostics diagnostics;
   const tenon::stage::Stage stage =
-      or_exit(tenon::open_stage(argv[1], {.physics_variant = "physics"}, diagnostics));
+      or_exit(tenon::open(argv[1], {.physics_variant = "physics"}, diagnostics));
   const tenon::scene::PhysicsScene scene =
       tenon::physics::read_physics(stage, tenon::read_options(), diagnostics);
   tell(diagnostics);

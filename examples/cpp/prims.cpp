@@ -46,15 +46,16 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: prims ASSET\n");
     return 2;
   }
-  tenon::Diagnostics diagnostics;
   tenon::Path attribute;
   {
-    const tenon::stage::Stage stage = or_exit(tenon::open_stage(argv[1], {}, diagnostics));
+    const tenon::stage::Stage stage = or_exit(tenon::open(argv[1]));
     std::printf("prims: %zu\n", walk(stage.pseudo_root()).size());
     std::printf("default prim: %s\n", stage.default_prim().path().str().c_str());
     std::printf("authored mass: %.6f kg\n", authored_mass(stage, attribute));
+    tell(stage.diagnostics());
   }
 
+  tenon::Diagnostics diagnostics;
   const tenon::AssetEdit edit{.object = attribute, .value = "0.5"};
   const tenon::EditedAsset edited = or_exit(tenon::edit_asset(argv[1], {edit}, {}, diagnostics));
   for (const tenon::EditedPlace& place : edited.places) {
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
   }
   or_exit(tenon::write_files(edited.files));
 
-  const tenon::stage::Stage stage = or_exit(tenon::open_stage(argv[1], {}, diagnostics));
+  const tenon::stage::Stage stage = or_exit(tenon::open(argv[1]));
   tenon::Path same;
   std::printf("authored mass now: %.6f kg\n", authored_mass(stage, same));
   tell(diagnostics);

@@ -99,7 +99,7 @@ Result<std::unique_ptr<Batch>> Batch::make(const std::string& path, const OpenOp
   auto batch = std::make_unique<Batch>();
   batch->path = path;
   batch->open = with_readings(open, readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, batch->open, batch->diagnostics));
+  TENON_TRY(stage::Stage stage, tenon::open(path, batch->open, batch->diagnostics));
   batch->stage = std::make_unique<stage::Stage>(std::move(stage));
   batch->scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*batch->stage, read_options(readings), batch->diagnostics));

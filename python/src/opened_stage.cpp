@@ -32,7 +32,7 @@ std::shared_ptr<OpenedStage> OpenedStage::open(std::string path, OpenOptions opt
   opened->options_ = with_readings(std::move(options), readings);
   opened->readings_ = readings;
   Result<stage::Stage> stage =
-      unlocked([&] { return open_stage(opened->path_, opened->options_, opened->diagnostics_); });
+      unlocked([&] { return tenon::open(opened->path_, opened->options_, opened->diagnostics_); });
   opened->stage_ =
       std::make_shared<const stage::Stage>(or_raise(std::move(stage), opened->diagnostics_));
   return opened;

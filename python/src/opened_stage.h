@@ -22,7 +22,7 @@ namespace tenon::python {
 /// saved yet. Prims of Python name it and a path, so that they are never older than an edit.
 class OpenedStage {
  public:
-  /// Errors: those of open_stage and set_reading.
+  /// Errors: those of tenon::open and set_reading.
   static std::shared_ptr<OpenedStage> open(std::string path, OpenOptions options,
                                            const physics::Readings& readings);
 

@@ -88,7 +88,7 @@ Answers answers_of(const std::string& root, const std::string& name, const OpenO
   Answers answers;
   const std::string path = root + "/" + name;
   Diagnostics diagnostics;
-  const auto stage = open_stage(path, open, diagnostics);
+  const auto stage = tenon::open(path, open, diagnostics);
   EXPECT_TRUE(stage) << (stage ? "" : stage.error().diagnostic().message);
   if (!stage) {
     return answers;
@@ -228,7 +228,7 @@ TEST_F(AssetInMemory, AFileOfTheDiskIsNotFoundFromMemory) {
   Diagnostics diagnostics;
   OpenOptions options = reading(alone);
   options.search_paths = {folder_ + "/lib"};
-  const auto stage = open_stage(folder_ + "/root.usda", options, diagnostics);
+  const auto stage = tenon::open(folder_ + "/root.usda", options, diagnostics);
   ASSERT_TRUE(stage);
   EXPECT_EQ(stage->used_layers().size(), 1u);
   const auto count = [&](const char* name) {
@@ -248,7 +248,7 @@ TEST_F(AssetInMemory, AFileOfTheDiskIsNotFoundFromMemory) {
   EXPECT_EQ(packed->files.size(), 1u);
   EXPECT_FALSE(open_layer(folder_ + "/sub/cup.usda", options, ignored));
   options.session_path = folder_ + "/sub/over.usda";
-  EXPECT_FALSE(open_stage(folder_ + "/root.usda", options, ignored));
+  EXPECT_FALSE(tenon::open(folder_ + "/root.usda", options, ignored));
   CheckOptions check;
   check.open = reading(alone);
   EXPECT_TRUE(check_asset(folder_ + "/root.usda", check));

@@ -53,7 +53,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
   OpenOptions open = with_readings(options.open, options.readings);
   open.physics_variant = variant;
   Diagnostics opening;
-  TENON_TRY(const stage::Stage stage, open_stage(path, open, opening));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, open, opening));
   Run run;
   const stage::Prim prim = stage.default_prim();
   const auto sets = prim.variant_set_names();

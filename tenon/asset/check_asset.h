@@ -28,7 +28,7 @@ struct CheckedAsset {
 };
 
 /// Opens the asset under each variant of its default prim's set "Physics", and as it opens by
-/// itself where its selection names none of them. Fails as open_stage does.
+/// itself where its selection names none of them. Fails as tenon::open does.
 Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& options);
 
 /// What the fixes of the findings make of the files that own the opinions; `files` are those that

@@ -127,7 +127,7 @@ struct EditedAsset {
 /// to the root layer. It authors the same opinions as edit::StageEditor.
 class AssetEditor {
  public:
-  /// Errors: those of open_stage, and Unsupported for assets in packages.
+  /// Errors: those of tenon::open, and Unsupported for assets in packages.
   static Result<AssetEditor> open(const std::string& path, const EditOptions& options,
                                   Diagnostics& diagnostics);
   AssetEditor(AssetEditor&&) noexcept;

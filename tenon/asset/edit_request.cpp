@@ -56,7 +56,7 @@ Result<AssetEdit> api_edit(const std::string& text, AssetEdit::Kind kind) {
 /// The typed edits look at joints and units: at the scene with physics, whichever variant has it.
 Result<stage::Stage> scene_with_physics(const std::string& asset, OpenOptions open) {
   Diagnostics ignored;  // the edit composes again and reports
-  TENON_TRY(stage::Stage stage, open_stage(asset, open, ignored));
+  TENON_TRY(stage::Stage stage, tenon::open(asset, open, ignored));
   const stage::Prim root = stage.default_prim();
   if (!root || !open.physics_variant.empty()) {
     return stage;
@@ -71,7 +71,7 @@ Result<stage::Stage> scene_with_physics(const std::string& asset, OpenOptions op
     return stage;
   }
   open.physics_variant = *found;
-  return open_stage(asset, open, ignored);
+  return tenon::open(asset, open, ignored);
 }
 
 using ReadEdits = std::function<Result<std::vector<AssetEdit>>(const std::string&)>;

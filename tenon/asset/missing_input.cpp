@@ -28,7 +28,7 @@ bool tells_of_missing_input(const Diagnostic& finding) {
 void add_missing_input(const std::string& asset, const OpenOptions& options,
                        Diagnostics& diagnostics) {
   Diagnostics found;
-  if (!open_stage(asset, options, found)) {
+  if (!tenon::open(asset, options, found)) {
     return;  // the verb itself says why
   }
   for (const Diagnostic& finding : found) {

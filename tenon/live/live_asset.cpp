@@ -116,7 +116,7 @@ Result<LiveAsset> open_live_asset(const LiveAssetOptions& options) {
   LiveAsset asset;
   Diagnostics found;
   const OpenOptions open = with_readings(options.open, options.readings);
-  TENON_TRY(stage::Stage stage, open_stage(options.path, open, found));
+  TENON_TRY(stage::Stage stage, tenon::open(options.path, open, found));
   asset.stage = std::make_unique<stage::Stage>(std::move(stage));
   Diagnostics of_physics;
   asset.explained = std::make_unique<answers::Explained>(

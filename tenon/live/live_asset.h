@@ -48,7 +48,7 @@ struct LiveAsset {
 };
 
 /// Opens, reads the physics and draws. A scene that no engine takes is a result without a world.
-/// Errors: those of open_stage, and of the picture.
+/// Errors: those of tenon::open, and of the picture.
 Result<LiveAsset> open_live_asset(const LiveAssetOptions& options);
 
 /// A model of another engine, or of the same one again; the old model goes, even where this fails.

@@ -173,6 +173,8 @@ const Diagnostics& Stage::diagnostics() const {
   return data_->diagnostics;
 }
 
+void Stage::set_diagnostics(Diagnostics all) { data_->diagnostics = std::move(all); }
+
 double Stage::start_time_code() const {
   return has_authored_metadata(fields::startTimeCode) ? number(metadata(fields::startTimeCode))
                                                       : number(metadata(fields::startFrame));

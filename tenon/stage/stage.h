@@ -69,6 +69,8 @@ class Stage {
   std::size_t work() const;
   /// Composition errors and value errors found so far.
   const Diagnostics& diagnostics() const;
+  /// Puts `all`, which has these and what else opening found, in their place.
+  void set_diagnostics(Diagnostics all);
 
   double start_time_code() const;
   double end_time_code() const;

@@ -104,7 +104,7 @@ TEST(SceneForms, EveryScenesJsonAndBytesSimulateAlike) {
     Diagnostics diagnostics;
     OpenOptions options;
     options.physics_variant = one.variant;
-    const auto stage = open_stage(one.file, options, diagnostics);
+    const auto stage = tenon::open(one.file, options, diagnostics);
     if (!stage) {
       ++unreadable;  // published as it is: not all of them are layers
       continue;

@@ -82,7 +82,7 @@ class SceneRun {
 
  private:
   void open(const std::string& path, const std::string& engine) {
-    auto stage = open_stage(path, {}, diagnostics_);
+    auto stage = tenon::open(path, {}, diagnostics_);
     ASSERT_TRUE(stage.has_value()) << stage.error().to_string();
     stage_ = std::make_unique<stage::Stage>(*std::move(stage));
     scene_ =

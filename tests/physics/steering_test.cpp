@@ -22,8 +22,8 @@ using scene::Index;
 
 scene::PhysicsScene hand(const std::string& file) {
   Diagnostics diagnostics;
-  const auto stage =
-      open_stage(std::string(TENON_SOURCE_DIR) + "/examples/inspire_hand/" + file, {}, diagnostics);
+  const auto stage = tenon::open(std::string(TENON_SOURCE_DIR) + "/examples/inspire_hand/" + file,
+                                 {}, diagnostics);
   EXPECT_TRUE(stage.has_value());
   return physics::read_physics(*stage, {}, diagnostics);
 }

@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   int result = 0;
   for (int i = 1; i < argc; ++i) {
     tenon::Diagnostics diagnostics;
-    const auto stage = tenon::open_stage(argv[i], {}, diagnostics);
+    const auto stage = tenon::open(argv[i], {}, diagnostics);
     std::printf("file %s\n", argv[i]);
     if (stage) {
       print_collections(*stage);

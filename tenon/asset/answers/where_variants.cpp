@@ -20,7 +20,7 @@ Result<void> add_other_variants(const OpenedAsset& asset, const WhereQuestion& q
     OpenOptions open = asset.open;
     open.physics_variant = variant;
     Diagnostics known;  // the first stage has reported them
-    TENON_TRY(const stage::Stage other, open_stage(asset.path, open, known));
+    TENON_TRY(const stage::Stage other, tenon::open(asset.path, open, known));
     if (const stage::Prim prim = other.prim(question.prim)) {
       answers::add_other_variant(answer,
                                  answers::where_json(other, prim, question.property, question.time),

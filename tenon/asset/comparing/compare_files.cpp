@@ -44,7 +44,7 @@ Result<layer::LayerPtr> read_side(const std::string& path, const CompareOptions&
 Result<stage::Stage> open_side(const std::string& path, const CompareOptions& options,
                                Diagnostics& diagnostics) {
   if (path != kNoFile) {
-    return open_stage(path, options.open, diagnostics);
+    return tenon::open(path, options.open, diagnostics);
   }
   const auto no_layers = [](const std::string& asset, const layer::Layer&) {
     return Result<layer::LayerPtr>(Error(ErrorCode::NotFound, "no " + asset));

@@ -102,7 +102,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
                                 const Wanted& wanted, Diagnostics& diagnostics) {
   Diagnostics found;
   OpenOptions open = with_readings(options.open, options.readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, open, found));
+  TENON_TRY(stage::Stage stage, tenon::open(path, open, found));
   ComparedEngine compared;
   compared.variant = wanted.variant;
   const bool chosen = !open.physics_variant.empty() || !open.physics_of.empty();
@@ -113,7 +113,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
     found = Diagnostics();
     open.physics_variant = compared.variant;
     open.physics_below = true;
-    TENON_TRY(stage, open_stage(path, open, found));
+    TENON_TRY(stage, tenon::open(path, open, found));
   }
   compared.setup.engine = wanted.engine;
   compared.setup.options.time_step = options.time_step;

@@ -71,7 +71,7 @@ struct ComparedEngines {
   const Error* failure() const;
 };
 
-/// Errors: those of open_stage, read_commands and make_simulation; Invalid (compare.engines) for
+/// Errors: those of tenon::open, read_commands and make_simulation; Invalid (compare.engines) for
 /// fewer than two engines; Limit (sim.record-too-long). A run that becomes unstable is a finding,
 /// and the motions are compared up to there.
 Result<ComparedEngines> compare_engines(const std::string& path,

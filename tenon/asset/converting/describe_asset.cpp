@@ -65,7 +65,7 @@ Result<AssetDescription> as_urdf(const stage::Stage& stage, const std::string& o
 Result<AssetDescription> describe_asset(const std::string& path, const OpenOptions& open,
                                         DescriptionFormat format, const std::string& output,
                                         Diagnostics& diagnostics) {
-  TENON_TRY(const stage::Stage stage, open_stage(path, open, diagnostics));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, open, diagnostics));
   const bytes::ReadPolicy policy = policy_for(path, open);
   name_outside_layers(stage, policy, diagnostics);
   return format == DescriptionFormat::Urdf ? as_urdf(stage, output, diagnostics)

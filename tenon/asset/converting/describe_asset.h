@@ -26,7 +26,7 @@ struct AssetDescription {
 };
 
 /// For a file at `output`, with the files beside it that it names. No file is touched. Errors:
-/// those of open_stage, export_mjcf and export_urdf.
+/// those of tenon::open, export_mjcf and export_urdf.
 Result<AssetDescription> describe_asset(const std::string& path, const OpenOptions& open,
                                         DescriptionFormat format, const std::string& output,
                                         Diagnostics& diagnostics);

@@ -19,7 +19,7 @@ Result<layer::Layer> copy_layer(const std::string& path, const OpenOptions& open
     TENON_TRY(const layer::LayerPtr layer, open_layer(path, open, diagnostics));
     return *layer;
   }
-  TENON_TRY(const stage::Stage stage, open_stage(path, open, diagnostics));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, open, diagnostics));
   name_outside_layers(stage, policy_for(path, open), diagnostics);
   return form == CopyForm::FlattenedLayerStack ? stage::flatten_layer_stack(stage)
                                                : stage::flatten(stage);

@@ -20,7 +20,7 @@ enum class CopyForm : std::uint8_t {
   FlattenedLayerStack  ///< the root layer with its sublayers merged
 };
 
-/// Errors: those of open_layer and open_stage. Layers of a composed scene that lie elsewhere are
+/// Errors: those of open_layer and tenon::open. Layers of a composed scene that lie elsewhere are
 /// named in `diagnostics` (asset_policy.h).
 Result<layer::Layer> copy_layer(const std::string& path, const OpenOptions& open, CopyForm form,
                                 Diagnostics& diagnostics);

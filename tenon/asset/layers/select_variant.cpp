@@ -75,7 +75,7 @@ bool keeps_asset_paths(const layer::Layer& root, const std::string& output) {
 
 Result<SelectedVariant> select_variant(const std::string& path, const SelectOptions& options,
                                        Diagnostics& diagnostics) {
-  TENON_TRY(const stage::Stage stage, open_stage(path, options.open, diagnostics));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, options.open, diagnostics));
   TENON_TRY(const auto assignment, split_assignment(options.assignment));
   SelectedVariant result;
   TENON_TRY(result.selection, find_selection(stage, options.prim, assignment));

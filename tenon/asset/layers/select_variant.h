@@ -35,8 +35,8 @@ struct SelectedVariant {
   bool kept_layout = true;     ///< comments and layout of text stay
 };
 
-/// Authors a selection of a variant that there is. No file is touched. Errors: those of open_stage;
-/// NotFound, with what there is; Unsupported, in place in a package.
+/// Authors a selection of a variant that there is. No file is touched. Errors: those of
+/// tenon::open; NotFound, with what there is; Unsupported, in place in a package.
 Result<SelectedVariant> select_variant(const std::string& path, const SelectOptions& options,
                                        Diagnostics& diagnostics);
 

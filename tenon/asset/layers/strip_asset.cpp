@@ -86,7 +86,7 @@ Result<StrippedAsset> strip_asset(const std::string& path, const StripOptions& o
 
 Result<MutedAsset> mute_asset(const std::string& path, const StripOptions& options,
                               Diagnostics& diagnostics) {
-  TENON_TRY(const stage::Stage stage, open_stage(path, options.open, diagnostics));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, options.open, diagnostics));
   const layer::Layer& root = stage.root_layer();
   const std::string output = root_output(options.output, root);
   const bytes::Files& files = options.open.files;

@@ -47,8 +47,8 @@ struct MutedAsset {
 };
 
 /// Deletes nothing: bodies, colliders and joints are switched off by their enable flags, in a layer
-/// over the asset or, in place, in its root layer. No file is touched. Errors: those of open_stage;
-/// Invalid (output.is-input) for a layer over the asset that would replace it.
+/// over the asset or, in place, in its root layer. No file is touched. Errors: those of
+/// tenon::open; Invalid (output.is-input) for a layer over the asset that would replace it.
 Result<MutedAsset> mute_asset(const std::string& path, const StripOptions& options,
                               Diagnostics& diagnostics);
 

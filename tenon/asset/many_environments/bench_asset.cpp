@@ -165,7 +165,7 @@ std::size_t BenchedAsset::failed() const {
 Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& options,
                                  Diagnostics& diagnostics) {
   const OpenOptions open = with_readings(options.open, options.readings);
-  TENON_TRY(const stage::Stage stage, open_stage(path, open, diagnostics));
+  TENON_TRY(const stage::Stage stage, tenon::open(path, open, diagnostics));
   const scene::PhysicsScene scene =
       physics::read_physics(stage, read_options(options.readings), diagnostics);
   BenchedAsset benched;

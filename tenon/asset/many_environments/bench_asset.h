@@ -57,7 +57,7 @@ struct BenchedAsset {
   std::size_t failed() const;
 };
 
-/// Errors: those of open_stage, make_environments and of variations; Invalid (sim.time-step). An
+/// Errors: those of tenon::open, make_environments and of variations; Invalid (sim.time-step). An
 /// environment that fails is a result.
 Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& options,
                                  Diagnostics& diagnostics);

@@ -107,7 +107,7 @@ Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOp
                                   Diagnostics& diagnostics) {
   SimulatedAsset read;
   const OpenOptions open = with_readings(options.open, options.readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
+  TENON_TRY(stage::Stage stage, tenon::open(path, open, diagnostics));
   read.stage = std::make_unique<stage::Stage>(std::move(stage));
   Diagnostics found;
   read.scene = std::make_unique<scene::PhysicsScene>(

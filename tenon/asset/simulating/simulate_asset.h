@@ -65,7 +65,7 @@ struct SimulatedAsset {
 };
 
 /// Opens, reads the physics and runs. A run that failed on its way is a result (see Run::failure)
-/// and a finding; one that could not begin is an Error: those of open_stage and make_simulation,
+/// and a finding; one that could not begin is an Error: those of tenon::open and make_simulation,
 /// Invalid (sim.time-step, drive.negative-gain), Limit (sim.record-too-long), those of
 /// read_commands and of restore_state with their file. A run that was to end at rest and did not is
 /// a finding, too (sim.not-at-rest).

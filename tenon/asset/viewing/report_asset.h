@@ -35,7 +35,7 @@ struct AssetReport {
 /// One file for browsers about the asset at `path`: what it is, what is wrong with it, its masses
 /// and joints, and its picture with the motion. It loads nothing else and runs no script but its
 /// own. An asset whose motion cannot be simulated is shown without, and the finding says why.
-/// Errors: Missing without the page (page_place.h); those of open_stage and write_glb.
+/// Errors: Missing without the page (page_place.h); those of tenon::open and write_glb.
 Result<AssetReport> report_asset(const std::string& path, const ReportOptions& options,
                                  Diagnostics& diagnostics);
 

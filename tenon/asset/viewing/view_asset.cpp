@@ -29,7 +29,7 @@ Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAss
                                       Diagnostics& diagnostics) {
   SimulatedAsset read;
   const OpenOptions open = with_readings(options.open, options.readings);
-  TENON_TRY(stage::Stage stage, open_stage(path, open, diagnostics));
+  TENON_TRY(stage::Stage stage, tenon::open(path, open, diagnostics));
   read.stage = std::make_unique<stage::Stage>(std::move(stage));
   read.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*read.stage, read_options(options.readings), diagnostics));

@@ -24,7 +24,7 @@ view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsSce
                               const std::string& path, const OpenOptions& open, bool colliders);
 
 /// The asset at `path` as a run of it would begin: the stage and the scene alone, no simulation.
-/// Errors: those of open_stage.
+/// Errors: those of tenon::open.
 Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
 
