@@ -85,6 +85,8 @@ void add_global_options(const Command& root, Globals& globals) {
   root.add_option("--color", globals.color, "Colours: auto, always or never")
       .one_of({"auto", "always", "never"})
       .value_name("WHEN");
+  root.add_flag("--no-settings", globals.no_settings,
+                "Do not read tenon.toml (tenon help settings)");
   root.add_flag("-V,--version", globals.version, "Print the version");
 }
 

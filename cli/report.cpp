@@ -12,6 +12,7 @@
 #include "cli/text/terminal_text.h"
 #include "tenon/answers/diagnostic_json.h"
 #include "tenon/asset/missing_input.h"
+#include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/files.h"
 #include "tenon/formats/find_places.h"
 
@@ -59,12 +60,16 @@ int Report::finish(int code, Json body) {
         return d.file == bytes::absolute_file_path("-");
       });
   formats::find_places(diagnostics, piped ? disk_and_standard_input() : bytes::Files());
+  const std::string settings = shown_path(settings_);
   if (!json()) {
     print_diagnostics();
+    if (!settings.empty() && verbose()) {
+      note("settings: " + settings);
+    }
     return code;
   }
-  Json envelope = answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk}, diagnostics,
-                                         std::move(body));
+  Json envelope = answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk, settings},
+                                         diagnostics, std::move(body));
   if (globals_.collected != nullptr) {
     globals_.collected->list.push_back(std::move(envelope));
     return code;

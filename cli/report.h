@@ -37,6 +37,8 @@ class Report {
   /// For callers, such as git, to which every code but 0 is a crash: keeps `finish` from turning 0
   /// into 1 where input is missing.
   void keep_exit_code() { any_exit_code_misleads_ = true; }
+  /// The tenon.toml that was read: named with -v and with --json.
+  void name_settings(const std::string& file) { settings_ = file; }
   /// Talk for people on stderr, unless quiet or JSON was asked for.
   void note(const std::string& text) const;
 
@@ -52,6 +54,7 @@ class Report {
   const Globals& globals_;
   std::string verb_;
   std::string asset_;
+  std::string settings_;
   bool text_only_ = false;
   bool any_exit_code_misleads_ = false;
 };

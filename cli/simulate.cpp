@@ -9,6 +9,7 @@
 
 #include "cli/progress.h"
 #include "cli/reading_options.h"
+#include "cli/settings.h"
 #include "tenon/asset/layers/asset_layers.h"
 #include "tenon/bake/record_outputs.h"
 #include "tenon/base/text/shown_path.h"
@@ -39,11 +40,12 @@ class InterruptCounter {
   Handler previous_ = std::signal(SIGINT, count_interrupt);
 };
 
-Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments) {
+Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments,
+                                                Report& report) {
   SimulateAssetOptions options;
+  TENON_TRY(options.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.open = arguments.asset.open_options();
-  options.engine = arguments.engine;
   options.duration = arguments.duration;
   options.time_step = arguments.time_step;
   options.frames_per_second = arguments.frames_per_second;
@@ -62,8 +64,8 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
 void SimulateArguments::add_to(const Command& verb) {
   asset.add_with_standard_input_to(verb);
   verb.add_option("--engine", engine,
-                  "The engine; without it that of the selected variant: PhysX for physx, else "
-                  "MuJoCo (tenon doctor lists those of this build)")
+                  "The engine; without it that of tenon.toml, else that of the selected variant: "
+                  "PhysX for physx, else MuJoCo (tenon doctor lists those of this build)")
       .one_of(engines::engine_names())
       .value_name("NAME");
   verb.add_option("--duration", duration, {0, 1e6, false, false, "s"},
@@ -166,7 +168,7 @@ SimulationListener RunWatch::listener() {
 }
 
 Result<SimulatedAsset> simulate(const SimulateArguments& arguments, Report& report) {
-  TENON_TRY(SimulateAssetOptions options, simulation_options(arguments));
+  TENON_TRY(SimulateAssetOptions options, simulation_options(arguments, report));
   RunWatch watch(arguments, report);
   options.listener = watch.listener();
   return simulate_asset(arguments.asset.asset, options, report.diagnostics);

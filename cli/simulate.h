@@ -38,8 +38,8 @@ struct SimulateArguments {
   void add_steering_to(const Command& verb);
 };
 
-/// The options of a run, without a listener.
-Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments);
+/// The options of a run, without a listener; the engine may be that of the settings.
+Result<SimulateAssetOptions> simulation_options(const SimulateArguments& arguments, Report& report);
 
 /// Shows progress on a terminal's standard error; an interrupt stops the run. As long as it lives.
 class RunWatch {

@@ -23,6 +23,7 @@ struct Globals {
   bool quiet = false;
   bool verbose = false;
   bool version = false;
+  bool no_settings = false;
   std::string color = "auto";
   Envelopes* collected = nullptr;  ///< where the JSON of one asset of several goes
 };

@@ -77,6 +77,17 @@ else()
   target_compile_definitions(tenon_zlib INTERFACE TENON_WITH_ZLIB=0)
 endif()
 
+# Reads tenon.toml; headers alone. Ubuntu 22.04 has no package of it.
+find_path(TENON_TOML_INCLUDE_DIR toml++/toml.h)
+add_library(tenon_toml INTERFACE)
+if(TENON_TOML_INCLUDE_DIR)
+  target_include_directories(tenon_toml SYSTEM INTERFACE ${TENON_TOML_INCLUDE_DIR})
+  target_compile_definitions(tenon_toml INTERFACE TENON_WITH_TOML=1)
+else()
+  message(STATUS "toml++ not found (libtomlplusplus-dev): assets with a tenon.toml are refused")
+  target_compile_definitions(tenon_toml INTERFACE TENON_WITH_TOML=0)
+endif()
+
 # Of the server behind `tenon view`; headers alone.
 if(TENON_WITH_VIEW)
   find_path(TENON_BOOST_INCLUDE_DIR boost/beast.hpp)

@@ -59,6 +59,14 @@ need_for_build() {
   need_package ca-certificates libcli11-dev nlohmann-json3-dev liblz4-dev \
     zlib1g-dev libeigen3-dev libqhull-dev libpugixml-dev libassimp-dev libmeshoptimizer-dev \
     libboost-dev
+  need_toml
+}
+
+# Ubuntu 22.04 has no toml++; the program is built without tenon.toml there.
+need_toml() {
+  if ! (. /etc/os-release && [ "${VERSION_CODENAME:-}" = jammy ]); then
+    need_package libtomlplusplus-dev
+  fi
 }
 
 # Headers of the Python that the package is built for (tools/make_wheel.sh), 3.11 or later.

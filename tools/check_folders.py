@@ -42,6 +42,7 @@ LIBRARIES = {
     ],
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/asset/converting/model_text.h",
                     "tenon/urdf/*"],
+    "toml++/*": ["tenon/settings/toml_table.cpp"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],
     "nlohmann/*": ["tenon/answers/*", "tenon/browser/*.cpp", "tenon/glb/*.cpp",

@@ -25,6 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PACKAGES = {
     "eigen": "libeigen3-dev", "cli11": "libcli11-dev", "nlohmann-json": "nlohmann-json3-dev",
     "lz4": "liblz4-dev", "qhull": "libqhull-dev", "pugixml": "libpugixml-dev",
+    "toml++": "libtomlplusplus-dev",
     "boost": "libboost-dev", "meshoptimizer": "libmeshoptimizer-dev", "zlib": "zlib1g-dev",
     "assimp": "libassimp-dev", "libstdc++": "libstdc++6"}
 

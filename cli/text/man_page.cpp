@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "cli/text/help_text.h"
+#include "cli/text/settings_text.h"
 
 namespace tenon::cli {
 namespace {
@@ -45,6 +46,15 @@ std::string verb_text(const CommandInfo& verb, const std::string& name) {
   return text + footer_text(verb.footer);
 }
 
+std::string settings_section() {
+  std::string text = ".SH SETTINGS\n" + roff(settings_about()) + "\n";
+  for (const settings::Key& key : settings::keys()) {
+    text += ".TP\n.B " + roff(key.name) + "\n" + roff(settings_key_text(key)) + "\n" +
+            footer_text(std::string(key.example));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string man_page(const CommandInfo& program, const std::string& version) {
@@ -55,7 +65,7 @@ std::string man_page(const CommandInfo& program, const std::string& version) {
   for (const CommandInfo& verb : program.commands) {
     text += verb_text(verb, "tenon " + verb.name);
   }
-  return text + ".SH EXAMPLES AND EXIT CODES\n" + footer_text(program.footer);
+  return text + settings_section() + ".SH EXAMPLES AND EXIT CODES\n" + footer_text(program.footer);
 }
 
 }  // namespace tenon::cli

@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
+#include "cli/settings.h"
 #include "cli/verb.h"
 #include "tenon/asset/many_environments/bench_asset.h"
 #include "tenon/base/text/grouped_digits.h"
@@ -34,11 +35,11 @@ struct BenchArguments {
   std::vector<std::string> variations;
 };
 
-Result<BenchOptions> options_of(const BenchArguments& arguments) {
+Result<BenchOptions> options_of(const BenchArguments& arguments, Report& report) {
   BenchOptions options;
+  TENON_TRY(options.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.open = arguments.asset.open_options();
-  options.engine = arguments.engine;
   options.environments = arguments.environments;
   options.threads = arguments.threads;
   options.duration = arguments.duration;
@@ -90,7 +91,7 @@ void print_bench(const Json& bench) {
 
 int run_bench(const Globals& globals, const BenchArguments& arguments) {
   Report report(globals, "bench", arguments.asset.asset);
-  auto options = options_of(arguments);
+  auto options = options_of(arguments, report);
   if (!options) {
     return report.fail(options.error());
   }

@@ -4,6 +4,7 @@
 // What is found and what fixes change is the work of tenon/asset/checking. Reports are claimed
 // before it and written together after it. The exit code looks at what no baseline knows.
 #include <cstdio>
+#include <set>
 
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -49,7 +50,7 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-Result<CheckAssetsOptions> check_options(const CheckArguments& options) {
+Result<CheckAssetsOptions> check_options(const Globals& globals, const CheckArguments& options) {
   CheckAssetsOptions wanted;
   wanted.check.open = options.asset.open_options();
   wanted.check.rules = options.rules;
@@ -67,11 +68,12 @@ Result<CheckAssetsOptions> check_options(const CheckArguments& options) {
     };
   }
   wanted.baseline = options.baseline;
+  wanted.read_settings = !globals.no_settings;
   return wanted;
 }
 
 Result<CheckedAssets> check_all(const Globals& globals, const CheckArguments& options) {
-  TENON_TRY(CheckAssetsOptions wanted, check_options(options));
+  TENON_TRY(CheckAssetsOptions wanted, check_options(globals, options));
   Progress progress(globals, "checking");
   wanted.progress = [&](std::size_t done, std::size_t total) {
     progress.at(static_cast<double>(done), static_cast<double>(total), "assets");
@@ -118,6 +120,20 @@ std::string summary_of(const FindingCounts& counts, const CheckedAssets& outcome
   return text;
 }
 
+/// Which settings files held, and what they skipped.
+void tell_settings(const CheckedAssets& outcome, const Report& report) {
+  std::set<std::string> told;
+  for (const AssetChecked& asset : outcome.assets) {
+    if (!asset.settings.empty() && report.verbose() && told.insert(asset.settings).second) {
+      report.note("settings: " + shown_path(asset.settings));
+    }
+  }
+  for (const SkippedFindings& skipped : outcome.skipped) {
+    report.note("skipped by " + shown_path(skipped.settings) + ": " + skipped.rule + " (" +
+                skipped.reason + ") x " + std::to_string(skipped.count));
+  }
+}
+
 Result<void> claim_reports(const CheckArguments& options, Outputs& outputs) {
   TENON_CHECK(outputs.claim(OutputKind::Sarif, options.sarif));
   return outputs.claim(OutputKind::Baseline, options.write_baseline);
@@ -153,6 +169,7 @@ void print_outcome(const CheckedAssets& outcome, const FindingCounts& counts,
   if (options.sarif != "-" && options.write_baseline != "-") {
     print_findings(outcome, globals, diff);
   }
+  tell_settings(outcome, report);
   report.note(summary_of(counts, outcome, options));
 }
 
@@ -239,7 +256,8 @@ int run_check(const Globals& globals, const CheckArguments& options) {
 constexpr const char* kCheckFooter =
     "Errors give exit code 1, with --strict warnings too; infos show with -v.\n"
     "All variants of the default prim's set \"Physics\" are looked at; --physics V takes one.\n"
-    "Of a folder, the files that no other file in it uses as a layer are checked.\n\n"
+    "Of a folder, the files that no other file in it uses as a layer are checked.\n"
+    "tenon.toml in a repository may skip rules (tenon help settings); --no-settings ignores it.\n\n"
     "Examples:\n"
     "  tenon check hand.usda\n"
     "  tenon check assets/ --strict --baseline known.json\n"
@@ -268,9 +286,10 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "What these engines do otherwise on the asset: rules of the family portability")
       .split_at_commas()
       .one_of(check::known_engines());
-  verb.add_option("--profile", options->profile,
-                  "Hold the files to this structure of assets as well")
-      .one_of({"isaac-3.0"});
+  verb.add_option(
+          "--profile", options->profile,
+          "Hold the files to this structure of assets as well; without it that of tenon.toml")
+      .one_of(check::known_profiles());
   verb.add_option("--only", options->rules.only,
                   "These rules or families alone (mass, joint.body-missing)")
       .split_at_commas();

@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
+#include "cli/settings.h"
 #include "cli/text/compare_text.h"
 #include "cli/verb.h"
 #include "tenon/asset/comparing_engines/compared_engines_json.h"
@@ -37,8 +38,9 @@ struct CompareArguments {
   std::string output;
 };
 
-Result<CompareEnginesOptions> options_of(const CompareArguments& arguments) {
+Result<CompareEnginesOptions> options_of(const CompareArguments& arguments, Report& report) {
   CompareEnginesOptions options;
+  TENON_TRY(options.first, engine_for("", arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.open = arguments.asset.open_options();
   options.engines = arguments.engines;
@@ -93,7 +95,7 @@ int run_compare(const Globals& globals, const CompareArguments& arguments) {
   if (auto claimed = outputs.claim(OutputKind::Comparison, arguments.output); !claimed) {
     return report.fail(claimed.error());
   }
-  auto options = options_of(arguments);
+  auto options = options_of(arguments, report);
   if (!options) {
     return report.fail(options.error());
   }
@@ -167,7 +169,7 @@ void add_compare(const Command& parent, const Globals& globals, Chosen& chosen) 
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("--engines", options->engines,
                   "ENGINE or ENGINE:VARIANT, the first is what the others are compared with; "
-                  "without it all of this build (tenon doctor)")
+                  "without it all of this build (tenon doctor), that of tenon.toml first")
       .split_at_commas()
       .repeatable()
       .value_name("NAMES");

@@ -13,6 +13,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/settings.h"
 #include "cli/update.h"
 #include "cli/verb.h"
 #include "tenon/asset/convert_file.h"
@@ -28,6 +29,7 @@
 #include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/structure/layout.h"
 #include "tenon/structure/written_note.h"
 
 namespace tenon::cli {
@@ -42,7 +44,7 @@ struct ConvertArguments {
   FileAccess files;
   std::string gains;
   std::string name;
-  std::string names = "current";
+  std::string names;  ///< empty: those of the settings, else "current"
   std::string schema;
   std::string physics;
   bool fix_base = false;
@@ -247,7 +249,7 @@ int run_conversion(Report& report, const ConvertArguments& options) {
   return report.finish(code, std::move(body));
 }
 
-int run_convert(const Globals& globals, const ConvertArguments& options) {
+int run_convert(const Globals& globals, ConvertArguments options) {
   Report report(globals, "convert", options.input);
   const Progress progress(globals, "converting " + shown_path(options.input));
   if (ends_in(options.input, {".usda", ".usdc", ".usd", ".usdz"})) {
@@ -268,6 +270,13 @@ int run_convert(const Globals& globals, const ConvertArguments& options) {
     }
     return run_export(report, options, DescriptionFormat::Mjcf);
   }
+  if (names_folder(options.output)) {
+    auto names = names_for(options.names, options.input, report);
+    if (!names) {
+      return report.fail(names.error());
+    }
+    options.names = *std::move(names);
+  }
   return run_conversion(report, options);
 }
 
@@ -277,8 +286,9 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
                   "description if not given");
   verb.add_option("--names", options.names,
                   "Files, names and attributes in a folder: those of Isaac Sim 6, or those of its "
-                  "tutorial, with links side by side and variants for PhysX and MuJoCo")
-      .one_of({"current", "tutorial"});
+                  "tutorial, with links side by side and variants for PhysX and MuJoCo; without it "
+                  "that of tenon.toml, else current")
+      .one_of(structure::known_names());
   verb.add_flag("--fix-base", options.fix_base, "Hold the root link in the world");
   verb.add_flag("--float-base", options.float_base,
                 "The root link is free to move, as that of a walking robot; else it stands still "

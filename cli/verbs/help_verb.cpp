@@ -3,6 +3,7 @@
 //
 // The verbs about the program itself: help, version, manual, completion.
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/nearest_name.h"
@@ -11,22 +12,45 @@
 #include "cli/report.h"
 #include "cli/text/command_json.h"
 #include "cli/text/completion.h"
+#include "cli/text/help_text.h"
 #include "cli/text/man_page.h"
+#include "cli/text/settings_text.h"
 #include "cli/verb.h"
 #include "tenon/answers/diagnostic_json.h"
+#include "tenon/asset/answers/settings_json.h"
 
 namespace tenon::cli {
 namespace {
 
+constexpr std::string_view kSettingsTopic = "settings";
+
+/// `tenon help settings`: the keys of tenon.toml.
+int help_settings(Report& report) {
+  if (report.json()) {
+    return report.finish(kOk, settings_keys_json());
+  }
+  print_text(settings_text(kHelpWidth));
+  return report.finish(kOk);
+}
+
+std::vector<std::string> topics() {
+  std::vector<std::string> names = verb_names();
+  names.emplace_back(kSettingsTopic);
+  return names;
+}
+
 int run_help(const Globals& globals, const std::vector<std::string>& path) {
   Report report(globals, "help", "");
+  if (path.size() == 1 && path.front() == kSettingsTopic) {
+    return help_settings(report);
+  }
   const CommandInfo program = describe_program();
   const std::string help = help_of(program, path);
   if (help.empty()) {
     return report.fail(
         Error(ErrorCode::NotFound, "there is no verb \"" + path.front() + "\"")
             .with_rule("usage.unknown-verb")
-            .with_fix(did_you_mean(path.front(), verb_names(), "`tenon help` lists all verbs")));
+            .with_fix(did_you_mean(path.front(), topics(), "`tenon help` lists all verbs")));
   }
   if (report.json()) {
     return report.finish(kOk, command_json(program));
@@ -49,10 +73,11 @@ int print_own(Report& report, const std::string& text) {
 void add_help(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand("help", "Help on all verbs, or on one");
   auto path = std::make_shared<std::vector<std::string>>();
-  verb.add_option("verb", *path, "The verb to explain");
+  verb.add_option("verb", *path, "The verb to explain, or settings: the keys of tenon.toml");
   verb.footer(
       "With --json: the table of all verbs and options.\n\n"
-      "Examples:\n  tenon help\n  tenon help check\n  tenon help --json");
+      "Examples:\n  tenon help\n  tenon help check\n  tenon help settings\n"
+      "  tenon help --json");
   choose(verb, chosen, [&globals, path] { return run_help(globals, *path); });
 }
 

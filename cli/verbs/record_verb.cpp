@@ -106,9 +106,9 @@ Result<void> check_kind(const Command& verb, const RecordArguments& arguments) {
                       "the picture with --time");
 }
 
-Result<RecordOptions> options_of(const RecordArguments& arguments) {
+Result<RecordOptions> options_of(const RecordArguments& arguments, Report& report) {
   RecordOptions options = arguments.options;
-  TENON_TRY(options.run, simulation_options(arguments.simulate));
+  TENON_TRY(options.run, simulation_options(arguments.simulate, report));
   TENON_CHECK(arguments.picture.put_into(options));
   options.format = recording_format(arguments.output);
   options.frames_per_second = arguments.simulate.frames_per_second;
@@ -125,7 +125,7 @@ int run_record(const Globals& globals, const Command& verb, const RecordArgument
   if (auto fits = check_kind(verb, arguments); !fits) {
     return report.fail(fits.error());
   }
-  auto options = options_of(arguments);
+  auto options = options_of(arguments, report);
   if (!options) {
     return report.fail(options.error());
   }

@@ -25,9 +25,9 @@ struct ReportArguments {
   std::vector<std::string> engines;
 };
 
-Result<ReportOptions> options_of(const ReportArguments& arguments) {
+Result<ReportOptions> options_of(const ReportArguments& arguments, Report& report) {
   ReportOptions options;
-  TENON_TRY(options.run, simulation_options(arguments.simulate));
+  TENON_TRY(options.run, simulation_options(arguments.simulate, report));
   options.triangles = arguments.triangles;
   options.colliders = !arguments.no_colliders;
   if (arguments.compare || !arguments.engines.empty()) {
@@ -51,7 +51,7 @@ int run_report(const Globals& globals, const ReportArguments& arguments) {
   if (auto claimed = claim_page(globals, arguments, outputs); !claimed) {
     return report.fail(claimed.error());
   }
-  auto options = options_of(arguments);
+  auto options = options_of(arguments, report);
   if (!options) {
     return report.fail(options.error());
   }

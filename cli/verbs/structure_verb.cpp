@@ -11,6 +11,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/settings.h"
 #include "cli/update.h"
 #include "cli/verb.h"
 #include "tenon/asset/answers/structured_json.h"
@@ -28,7 +29,7 @@ struct StructureArguments {
   AssetArguments asset;
   structure::StructureOptions structure;
   std::string output;
-  std::string names = "current";
+  std::string names;
   std::string schema = "as-authored";
   std::string links = "as-authored";
   bool dry_run = false;
@@ -117,8 +118,8 @@ void add_form_options(const Command& verb, StructureArguments& options) {
                   "Name of the file that opens the asset; that of the default prim if not given");
   verb.add_option("--names", options.names,
                   "Names of files and scopes: those of Isaac Sim 6, or "
-                  "those of its tutorial")
-      .one_of({"current", "tutorial"});
+                  "those of its tutorial; without it that of tenon.toml, else current")
+      .one_of(structure::known_names());
   verb.add_option("--schema", options.schema,
                   "Vendors' schemas for joints: as-authored, current (Newton mimics, PhysX joint "
                   "axes), legacy (PhysX mimics and joints of Isaac Sim 5) or both")
@@ -166,8 +167,12 @@ int run(const Globals& globals, StructureArguments& options) {
               .with_fix("use letters, digits and '_', as in newton; none and physics are taken"));
     }
   }
+  const auto names = names_for(options.names, options.asset.asset, report);
+  if (!names) {
+    return report.fail(names.error());
+  }
   options.structure.names =
-      options.names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
+      *names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
   options.structure.schema = generation_of(options.schema);
   options.structure.links = nesting_of(options.links);
   return run_structure(report, options);

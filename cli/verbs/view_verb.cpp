@@ -15,6 +15,7 @@
 #include "cli/reading_options.h"
 #include "cli/recording.h"
 #include "cli/report.h"
+#include "cli/settings.h"
 #include "cli/verb.h"
 #include "tenon/base/error.h"
 #include "tenon/engines/engines.h"
@@ -108,12 +109,12 @@ Result<std::string> picture_of(const ViewArguments& arguments, const stage::Stag
   return glb::write_glb(view, {.colliders = true});
 }
 
-Result<live::SessionOptions> session_options(const ViewArguments& arguments) {
+Result<live::SessionOptions> session_options(const ViewArguments& arguments, Report& report) {
   live::SessionOptions options;
+  TENON_TRY(options.asset.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.asset.readings, chosen_readings(arguments.readings));
   options.asset.path = arguments.asset.asset;
   options.asset.open = arguments.asset.open_options();
-  options.asset.engine = arguments.engine;
   options.asset.time_step = arguments.time_step;
   options.asset.picture = [&arguments](const stage::Stage& stage,
                                        const scene::PhysicsScene& scene) {
@@ -155,7 +156,7 @@ int run_view(const Globals& globals, const ViewArguments& arguments) {
   if (!server) {
     return report.fail(server.error());
   }
-  auto options = session_options(arguments);
+  auto options = session_options(arguments, report);
   if (!options) {
     return report.fail(options.error());
   }
@@ -216,7 +217,7 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
       .value_name("ADDRESS");
   verb.add_option("--port", options->port, {0, 65535, false, true, ""}, "0: any that is free");
   verb.add_option("--engine", options->engine,
-                  "The engine; without it that of the selected variant")
+                  "The engine; without it that of tenon.toml, else that of the selected variant")
       .one_of(engines::engine_names())
       .value_name("NAME");
   verb.add_option("--dt", options->time_step, {1e-9, 10, false, false, "s"},

@@ -51,6 +51,9 @@ Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Jso
   for (const Diagnostic& d : diagnostics) {
     json["diagnostics"].push_back(diagnostic_json(d));
   }
+  if (!envelope.settings.empty()) {
+    json["settings"] = envelope.settings;
+  }
   for (auto& [key, value] : body.get_ref<Json::object_t&>()) {
     json[key] = std::move(value);
   }

@@ -22,10 +22,11 @@ struct Envelope {
   std::string verb;
   std::string asset;  ///< empty: the verb is not about one
   bool ok = true;
+  std::string settings{};  ///< the tenon.toml that was read; empty: none
 };
 
-/// {"tool", "version", "schema", "asset", "ok", "diagnostics"}, then the keys of `body`, which may
-/// have diagnostics of its own.
+/// {"tool", "version", "schema", "asset", "ok", "diagnostics"}, "settings" where a file was read,
+/// then the keys of `body`, which may have diagnostics of its own.
 Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Json body);
 
 /// {"assets"}: the answers for several assets in one.

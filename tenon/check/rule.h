@@ -43,6 +43,9 @@ struct Rule {
 /// Engines that rules of portability know: "isaac", "mujoco", "newton", "physx".
 const std::vector<std::string>& known_engines();
 
+/// Structures that files of assets can be checked against: "isaac-3.0".
+std::vector<std::string> known_profiles();
+
 /// All rules, sorted by id.
 const std::vector<Rule>& rules();
 /// The id of the rule that had the id `id` before, else `id` itself.

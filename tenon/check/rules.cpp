@@ -76,6 +76,8 @@ const std::vector<std::string>& known_engines() {
   return names;
 }
 
+std::vector<std::string> known_profiles() { return {"isaac-3.0"}; }
+
 std::string_view current_id(std::string_view id) {
   for (const auto& [former, current] : kFormerIds) {
     if (id == former) {

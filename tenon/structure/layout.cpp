@@ -216,6 +216,8 @@ constexpr ArcRow kArcs[] = {
 
 }  // namespace
 
+std::vector<std::string> known_names() { return {"current", "tutorial"}; }
+
 std::string_view role_name(Role role) { return row_of(role).name; }
 
 std::string file_name(Role role, Names names) {

@@ -55,6 +55,9 @@ enum class Names : std::uint8_t {
   Tutorial,  ///< its tutorial: geometry.usdc, material.usda, scope Materials
 };
 
+/// "current", "tutorial".
+std::vector<std::string> known_names();
+
 /// "base", "physx", ...; "interface", "variant", "other" for those without a name of their own.
 std::string_view role_name(Role role);
 /// The file's place in the asset's folder: "payloads/base.usda". Empty for Interface, Engine,

@@ -27,6 +27,7 @@ how to correct it.
   the rules. In a terminal: `tenon check --list-rules | grep mass`.
 - One page: `tenon explain RULE` prints it.
 - Skip a rule: `tenon check FILE --skip RULE`; only one: `--only RULE`, or the part before the dot.
+- Skip a rule for a repository, with the reason: [settings.md](../settings.md).
 - Numbers such as S-83 are explained in [physics-conformance.md](../physics-conformance.md).
 - Scripts read fields, not messages: [findings.md](../findings.md) lists the fields of a finding.
 

@@ -14,7 +14,9 @@
 #include <iterator>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "tenon/asset/checking/asset_settings.h"
 #include "tenon/asset/checking/baseline.h"
 #include "tenon/asset/repeat_edit.h"
 #include "tenon/asset_policy.h"
@@ -29,17 +31,21 @@ class AssetsCheck {
   AssetsCheck(const std::vector<std::string>& paths, const CheckAssetsOptions& options)
       : paths_(paths), options_(options) {}
 
-  Result<void> add_asset(const std::string& path) {
+  /// `settings` may be null.
+  Result<void> add_asset(const std::string& path, const settings::Settings* settings) {
+    settings_ = settings;
+    asset_options_ = with_settings(options_.check, settings);
     Result<CheckedAsset> checked = CheckedAsset();
     bool changed = false;
     if (options_.correct) {
       TENON_TRY(changed, correct(path, checked));
     }
     if (!options_.correct || (changed && options_.write)) {
-      checked = check_asset(path, options_.check);
+      checked = check_asset(path, asset_options_);
     }
-    result_.assets.push_back(
-        {path, checked.has_value(), checked ? checked->variants : std::vector<std::string>()});
+    result_.assets.push_back({path, checked.has_value(),
+                              checked ? checked->variants : std::vector<std::string>(),
+                              settings == nullptr ? "" : settings->file});
     if (!checked) {
       add(checked.error().diagnostic());
       for (const Diagnostic& further : checked.error().further()) {
@@ -48,7 +54,11 @@ class AssetsCheck {
       return {};
     }
     for (check::Finding& finding : checked->findings) {
-      add(std::move(finding));
+      if (const auto* rule = skips(settings_, options_.check.rules, finding.diagnostic.rule)) {
+        count(finding.diagnostic, *rule);
+      } else {
+        add(std::move(finding));
+      }
     }
     return {};
   }
@@ -63,11 +73,29 @@ class AssetsCheck {
     add(std::move(finding));
   }
 
+  using Place = std::tuple<std::string, std::uint32_t, std::uint32_t, std::string, std::string,
+                           std::string, std::string>;
+
+  static Place place_of(const Diagnostic& d) {
+    return {d.file, d.line, d.column, d.prim, d.property, d.rule, d.message};
+  }
+
   void add(check::Finding finding) {
-    const Diagnostic& d = finding.diagnostic;
-    if (known_.emplace(d.file, d.line, d.column, d.prim, d.property, d.rule, d.message).second) {
+    if (known_.insert(place_of(finding.diagnostic)).second) {
       result_.findings.push_back({std::move(finding), false});
     }
+  }
+
+  void count(const Diagnostic& skipped, const settings::SkippedRule& rule) {
+    const auto known = std::find_if(
+        result_.skipped.begin(), result_.skipped.end(), [&](const SkippedFindings& one) {
+          return one.settings == settings_->file && one.rule == rule.rule;
+        });
+    SkippedFindings& found = known != result_.skipped.end()
+                                 ? *known
+                                 : result_.skipped.emplace_back(
+                                       SkippedFindings{settings_->file, rule.rule, rule.reason, 0});
+    found.count += skipped_.emplace(settings_->file, place_of(skipped)).second ? 1 : 0;
   }
 
   /// The files of the asset and of the assets to check.
@@ -95,11 +123,15 @@ class AssetsCheck {
   /// None for an asset that cannot be checked.
   Result<std::vector<EditedFile>> write_corrected(const std::string& path,
                                                   Result<CheckedAsset>& checked) {
-    checked = check_asset(path, options_.check);
+    checked = check_asset(path, asset_options_);
     if (!checked) {
       return std::vector<EditedFile>();
     }
     for (check::Finding& finding : checked->findings) {
+      if (skips(settings_, options_.check.rules, finding.diagnostic.rule) != nullptr) {
+        finding.fix.reset();
+        continue;
+      }
       if (options_.suggested && !finding.fix) {
         finding.fix = finding.suggestion;
       }
@@ -132,10 +164,11 @@ class AssetsCheck {
 
   const std::vector<std::string>& paths_;
   const CheckAssetsOptions& options_;
+  const settings::Settings* settings_ = nullptr;  // of the asset at hand
+  CheckOptions asset_options_;
   CheckedAssets result_;
-  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string, std::string,
-                      std::string, std::string>>
-      known_;
+  std::set<Place> known_;
+  std::set<std::pair<std::string, Place>> skipped_;  // by settings file
 };
 
 /// The root assets of all paths, each once.
@@ -161,12 +194,16 @@ bool CheckedAssets::all_opened() const {
 Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
                                    const CheckAssetsOptions& options) {
   TENON_TRY(const std::vector<std::string> all, all_roots(paths, options.check.open));
+  AssetSettings settings;
+  if (options.read_settings) {
+    TENON_TRY(settings, AssetSettings::read(all, options.check.open.files));
+  }
   AssetsCheck check(paths, options);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (options.progress) {
       options.progress(i, all.size());
     }
-    TENON_CHECK(check.add_asset(all[i]));
+    TENON_CHECK(check.add_asset(all[i], settings.of(all[i])));
   }
   CheckedAssets checked = check.take();
   if (!options.baseline.empty()) {

@@ -21,6 +21,9 @@ struct CheckAssetsOptions {
   /// written, and the findings are those before.
   Function<Result<void>(const std::string& asset, const std::vector<EditedFile>& files)> write;
   std::string baseline;  ///< file of findings that are known; empty: none are
+  /// Reads the tenon.toml of each asset's repository (tenon/settings/settings.h): its profile where
+  /// `check` has none, and the rules that it skips unless `check.rules.only` names them.
+  bool read_settings = false;
   Function<void(std::size_t done, std::size_t total)> progress;  ///< in assets; may be empty
 };
 
@@ -29,6 +32,15 @@ struct AssetChecked {
   std::string path;
   bool opened = true;
   std::vector<std::string> variants;  ///< of "Physics" that were looked at
+  std::string settings;               ///< its tenon.toml; empty: none was read
+};
+
+/// Findings that a settings file skips.
+struct SkippedFindings {
+  std::string settings;  ///< file
+  std::string rule;
+  std::string reason;
+  std::size_t count = 0;
 };
 
 /// The result for all assets together.
@@ -36,12 +48,14 @@ struct CheckedAssets {
   std::vector<ReportedFinding> findings;  ///< each once, in the order of the assets
   std::vector<EditedFile> corrected;      ///< each once
   std::vector<AssetChecked> assets;
+  std::vector<SkippedFindings> skipped;  ///< in the order of the assets
 
   bool all_opened() const;
 };
 
 /// Checks the root assets (root_assets) of all paths. An asset that does not open is a finding.
-/// Errors: those of root_assets and of a baseline that cannot be read; those of `write`.
+/// Errors: those of root_assets, of settings and of a baseline that cannot be read; those of
+/// `write`.
 Result<CheckedAssets> check_assets(const std::vector<std::string>& paths,
                                    const CheckAssetsOptions& options);
 

@@ -48,6 +48,17 @@ Json corrected_json(const std::vector<EditedFile>& corrected) {
   return files;
 }
 
+Json skipped_json(const std::vector<SkippedFindings>& skipped) {
+  Json list = Json::array();
+  for (const SkippedFindings& one : skipped) {
+    list.push_back({{"rule", one.rule},
+                    {"reason", one.reason},
+                    {"count", one.count},
+                    {"settings", shown_path(one.settings)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json checked_json(const CheckedAssets& checked, std::string_view corrected_key) {
@@ -62,10 +73,13 @@ Json checked_json(const CheckedAssets& checked, std::string_view corrected_key) 
                      {"suggested", counts.suggested}, {"suppressed", counts.suppressed}};
   body["assets"] = Json::array();
   for (const AssetChecked& asset : checked.assets) {
-    body["assets"].push_back({{"asset", shown_path(asset.path)},
-                              {"opened", asset.opened},
-                              {"variants", asset.variants}});
+    body["assets"].push_back(
+        {{"asset", shown_path(asset.path)},
+         {"opened", asset.opened},
+         {"variants", asset.variants},
+         {"settings", asset.settings.empty() ? Json(nullptr) : Json(shown_path(asset.settings))}});
   }
+  body["skipped"] = skipped_json(checked.skipped);
   if (!corrected_key.empty()) {
     body[std::string(corrected_key)] = corrected_json(checked.corrected);
   }

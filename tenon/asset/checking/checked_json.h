@@ -12,8 +12,9 @@ namespace tenon {
 /// {"diagnostics": rows of diagnostic_json and "variants", "numbers", "autofix", "suggestedFix",
 /// "suppressed";
 /// "summary": {"errors", "warnings", "infos", "fixable", "suggested", "suppressed"}, "assets":
-/// [{"asset", "opened", "variants"}]}, and what was corrected: [{"file", "diff"}], under the key
-/// `corrected_key`, unless that is empty.
+/// [{"asset", "opened", "variants", "settings"}], "skipped": [{"rule", "reason", "count",
+/// "settings"}]}, and what was corrected: [{"file", "diff"}], under the key `corrected_key`, unless
+/// that is empty.
 answers::Json checked_json(const CheckedAssets& checked, std::string_view corrected_key);
 
 /// {"rules": [{"rule", "severity", "numbers", "autofix", "suggestedFix", "title"}]}: all that there

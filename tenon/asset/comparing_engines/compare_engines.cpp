@@ -72,12 +72,16 @@ std::vector<Wanted> wanted_engines(const CompareEnginesOptions& options) {
                          ? Wanted{text, "", false}
                          : Wanted{text.substr(0, colon), text.substr(colon + 1), true});
   }
+  const std::string first_name(options.first.empty() ? kUsualEngine : options.first);
   if (wanted.empty()) {
     for (const engines::EngineInfo& info : list_engines()) {
       if (info.available) {
-        const bool usual = info.name == kUsualEngine;  // what others are compared with
-        wanted.insert(usual ? wanted.begin() : wanted.end(), Wanted{info.name, "", false});
+        const bool first = info.name == first_name;  // what others are compared with
+        wanted.insert(first ? wanted.begin() : wanted.end(), Wanted{info.name, "", false});
       }
+    }
+    if (!options.first.empty() && (wanted.empty() || wanted.front().engine != options.first)) {
+      wanted.insert(wanted.begin(), Wanted{options.first, "", false});  // making it says why not
     }
   }
   return wanted;

@@ -36,6 +36,7 @@ struct CompareEnginesOptions {
   /// selects none, each engine gets the one of its name, else "physics". Empty: all of this build,
   /// MuJoCo first. The first one is what the others are compared with.
   std::vector<std::string> engines;
+  std::string first;               ///< of all of this build, instead of MuJoCo; empty: MuJoCo
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
   double frames_per_second = 60;
