@@ -13,7 +13,7 @@ inline constexpr std::uint64_t kCheckedEntryBytes = 1u << 20;     ///< whose che
 inline constexpr std::size_t kPartsFolderLevels = 4;  ///< above the folder of a description
 inline constexpr std::size_t kNamedFiles = 100'000;   ///< names that a model's files are tried by
 inline constexpr std::uint64_t kPackageXmlBytes = 1u << 20;  ///< of a ROS package's package.xml
-inline constexpr std::uint64_t kSettingsBytes = 1u << 15;    ///< of a tenon.toml
+inline constexpr std::uint64_t kSettingsBytes = 1u << 14;    ///< of a tenon.toml
 inline constexpr std::size_t kSettingsDepth = 8;             ///< tables within tables in it
 inline constexpr std::size_t kSceneJson = 1u << 28;          ///< bytes of a physics scene as JSON
 
