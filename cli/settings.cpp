@@ -20,13 +20,13 @@ Result<settings::Settings> settings_for(const std::string& asset, Report& report
 }
 
 Result<std::string> engine_for(const std::string& given, const std::string& asset, Report& report) {
-  TENON_TRY(settings::Settings settings, settings_for(asset, report));
-  return given.empty() ? std::move(settings.engine) : given;
+  TENON_TRY(const settings::Settings settings, settings_for(asset, report));
+  return given.empty() ? settings.engine : given;
 }
 
 Result<std::string> names_for(const std::string& given, const std::string& asset, Report& report) {
-  TENON_TRY(settings::Settings settings, settings_for(asset, report));
-  return given.empty() ? std::move(settings.names) : given;
+  TENON_TRY(const settings::Settings settings, settings_for(asset, report));
+  return given.empty() ? settings.names : given;
 }
 
 }  // namespace tenon::cli
