@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <unistd.h>
 
@@ -58,16 +56,13 @@ int fail(int argc, char** argv, std::string_view verb, const Error& error) {
   return tenon::cli::Report(globals, name, "").fail(error);
 }
 
-/// A caller that names files by absolute paths reads absolute paths.
+/// A caller that names files by absolute paths reads absolute paths. The value of an option may be
+/// joined to it, or to a name: --output=FILE, NAME=FOLDER.
 void show_paths_as_given(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
-    const std::filesystem::path path(argv[i]);
-    std::error_code ignored;
-    if (path.is_absolute() && std::filesystem::exists(path.parent_path(), ignored)) {
-      const std::filesystem::path normal = path.lexically_normal();
-      const bool below_root = normal.parent_path() == normal.root_path();
-      tenon::show_absolute((below_root ? normal : normal.parent_path()).string());
-    }
+    const std::string word(argv[i]);
+    const std::size_t equal = word.find('=');
+    tenon::show_as_given(equal == std::string::npos ? word : word.substr(equal + 1));
   }
 }
 

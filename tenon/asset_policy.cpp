@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/asset_roots.h"
 
@@ -44,7 +45,8 @@ void name_outside_layer(const std::string& layer, const std::string& asset,
           "the result",
       asset, 0,
       "give --sandbox with the folders that may be read to keep it out, or --allow-read " +
-          std::filesystem::path(file).parent_path().string() + " if it belongs to the asset"));
+          shell_word(std::filesystem::path(file).parent_path().string()) +
+          " if it belongs to the asset"));
 }
 
 void name_outside_layers(const stage::Stage& stage, const bytes::ReadPolicy& policy,

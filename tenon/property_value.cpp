@@ -62,11 +62,12 @@ Error unknown_property(const stage::Prim& prim, Token property) {
   const std::string nearest(nearest_name(property.view(), views));
   const std::vector<std::string> apis = apis_with(property);
   std::string fix =
-      "tenon tree --attributes lists what there is; tenon set --type TYPE makes a new one";
+      "tenon tree ASSET --attributes lists what there is; tenon set ASSET --type TYPE makes a new "
+      "one";
   if (!nearest.empty()) {
     fix = "did you mean " + nearest + "?";
   } else if (!apis.empty()) {
-    fix = "apply it: tenon set --apply " + prim.path().str() + "=" + apis.front();
+    fix = "apply it: tenon set ASSET --apply " + prim.path().str() + "=" + apis.front();
   }
   return Error(ErrorCode::NotFound,
                where + " has no property " + property.str() +

@@ -207,6 +207,18 @@ void note_free_root(const Report& report, const ConvertArguments& options) {
   }
 }
 
+/// Settings that a description has no place for are infos; how many there are is told.
+void note_unsupported(const Report& report) {
+  const auto count = static_cast<std::size_t>(
+      std::count_if(report.diagnostics.begin(), report.diagnostics.end(), [](const Diagnostic& d) {
+        return d.rule == "mujoco.not-mapped" && d.severity == Severity::Info;
+      }));
+  if (count > 0 && !report.verbose()) {
+    report.note(counted(count, "setting") + " of the asset " + (count == 1 ? "is" : "are") +
+                " unsupported by MJCF and not written; -v lists " + (count == 1 ? "it" : "them"));
+  }
+}
+
 /// The other way: an asset as a robot's description.
 int run_export(Report& report, const ConvertArguments& options, DescriptionFormat format) {
   Outputs outputs;
@@ -226,6 +238,7 @@ int run_export(Report& report, const ConvertArguments& options, DescriptionForma
       report, options.output,
       urdf ? counted(description->links, "link") : counted(description->links, "body", "bodies"),
       description->joints, counted(description->files_beside, urdf ? "mesh file" : "image"));
+  note_unsupported(report);
   return report.finish(!urdf && left_out(report.diagnostics) ? kNo : kOk,
                        description_json(*description, options.output));
 }

@@ -58,12 +58,13 @@ nb::object answered(const Json& json, const Diagnostics& found) {
 }
 
 nb::object check(const Files& paths, const OpenArguments& arguments, const std::string& profile,
-                 bool fix) {
+                 bool fix, bool suggested) {
   CheckAssetsOptions options;
   options.check.open = open_options_of(arguments);
   options.check.readings = readings_of(arguments);
   options.check.profile = profile;
   options.correct = fix;
+  options.suggested = suggested;
   if (fix) {
     options.write = [](const std::string& /*asset*/, const std::vector<EditedFile>& files) {
       return write_files(files);
@@ -74,6 +75,11 @@ nb::object check(const Files& paths, const OpenArguments& arguments, const std::
     names.push_back(path.string());
   }
   return to_python(or_raise(unlocked([&]() -> Result<Json> {
+    if (suggested && !fix) {
+      return Error(ErrorCode::Invalid, "suggested says what fix corrects")
+          .with_rule("usage.conflict")
+          .with_fix("give fix=True, too");
+    }
     TENON_TRY(const CheckedAssets checked, check_assets(names, options));
     return checked_json(checked, fix ? "corrected" : "");
   })));
@@ -359,9 +365,9 @@ nb::list engines() {
 }
 
 void bind_checks(nb::module_& module) {
-  module.def("check", &check, "paths"_a, "arguments"_a, "profile"_a, "fix"_a,
+  module.def("check", &check, "paths"_a, "arguments"_a, "profile"_a, "fix"_a, "suggested"_a,
              nb::sig("def check(paths: Sequence[str | os.PathLike[str]], arguments: "
-                     "OpenArguments, profile: str, fix: bool) -> dict[str, Any]"));
+                     "OpenArguments, profile: str, fix: bool, suggested: bool) -> dict[str, Any]"));
   module.def(
       "rules", [] { return to_python(rules_json()); }, nb::sig("def rules() -> dict[str, Any]"));
   module.def(

@@ -54,15 +54,20 @@ def where(
 
 
 def check(
-    *paths: PathLike, profile: str = "", fix: bool = False, **options: Unpack[OpenOptions]
+    *paths: PathLike,
+    profile: str = "",
+    fix: bool = False,
+    suggested: bool = False,
+    **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """Checks assets, or all assets below folders, against the rules (docs/rules).
 
     `profile` "isaac-3.0" holds the files to Asset Structure 3.0 as well. `fix` writes what has a
-    safe correction. Returns {"diagnostics": findings with file, line, prim and fix, "summary":
-    counts of errors, warnings, infos, "assets"}.
+    safe correction, with `suggested` also the names and types that messages suggest. Returns
+    {"diagnostics": findings with file, line, prim and fix, "summary": counts of errors, warnings,
+    infos, "assets"}.
     """
-    return _tenon.check(paths, arguments_of(options), profile, fix)
+    return _tenon.check(paths, arguments_of(options), profile, fix, suggested)
 
 
 def rules() -> list[dict[str, Any]]:

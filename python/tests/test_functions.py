@@ -81,6 +81,35 @@ def Xform "W"
         with self.assertRaises(KeyError):
             tenon.rule("no.such-rule")
 
+    def test_suggestions_are_written_where_they_are_asked_for(self):
+        path = self.written("typed.usda", """#usda 1.0
+(
+    defaultPrim = "W"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "W"
+{
+    def Cube "box" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]
+    )
+    {
+        vector3f velocity = (1, 0, 0)
+    }
+}
+""")
+        with self.assertRaises(tenon.Error) as raised:
+            tenon.check(path, suggested=True)
+        self.assertEqual(raised.exception.fix, "give fix=True, too")
+        def rules(answer):
+            return [row["rule"] for row in answer["diagnostics"]]
+        self.assertIn("attribute.unprefixed", rules(tenon.check(path, fix=True)))
+        self.assertIn("vector3f velocity", path.read_text())
+        answer = tenon.check(path, fix=True, suggested=True)
+        self.assertNotIn("attribute.unprefixed", rules(tenon.check(path)))
+        self.assertIn("vector3f physics:velocity", path.read_text())
+        self.assertEqual(len(answer["corrected"]), 1)
+
     def test_differences(self):
         path = self.copied_hand()
         other = self.folder / "other"

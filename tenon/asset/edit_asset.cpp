@@ -323,7 +323,7 @@ class AssetEditor::State {
       TENON_CHECK(settle());
       done = try_edit(number, edit);
     }
-    return done ? Result<void>() : with_file_fix(done.error());
+    return done ? Result<void>() : Result<void>(done.error());
   }
 
   /// In all files at once; looks whether it is composed as asked.
@@ -430,7 +430,9 @@ class AssetEditor::State {
       made.place.before = composed_text(prim, edit.object.name());
     }
     TENON_CHECK(selection.editor.set_target(std::move(target)));
-    TENON_CHECK(author_edit(selection.editor, edit, spec, made.typed));
+    if (auto made_it = author_edit(selection.editor, edit, spec, made.typed); !made_it) {
+      return with_file_fix(made_it.error());
+    }
     written_.insert(spec);
     sites_.insert(spec);
     for (const Path at : sites_of(edit)) {

@@ -12,6 +12,7 @@
 #include "tenon/asset/editing/stage_metadata.h"
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/open_stage.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/property_value.h"
@@ -134,8 +135,8 @@ Result<std::vector<AssetEdit>> read_edits(const std::string& asset, const EditRe
   if (!request.layer.empty() && !options.layer.empty()) {
     return Error(ErrorCode::Invalid, "--layer sets metadata of the file that is named first")
         .with_rule("edit.bad-argument")
-        .with_fix("leave --in out, or name that file: tenon set " + options.layer + " --layer " +
-                  request.layer.front());
+        .with_fix("leave --in out, or name that file: tenon set " + shell_word(options.layer) +
+                  " --layer " + shell_word(request.layer.front()));
   }
   TENON_TRY(std::vector<AssetEdit> edits, stage_metadata_edits(request.layer));
   for (const std::string& text : request.remove) {

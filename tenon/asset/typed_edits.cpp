@@ -220,9 +220,8 @@ Result<Edits> filter_edits(const stage::Stage& stage, const scene::PhysicsScene&
 }
 
 Edits overlap_edits(const stage::Stage& stage, const scene::PhysicsScene& scene) {
-  constexpr std::size_t kMost = 10000;
   std::set<std::pair<Path, Path>> pairs;
-  for (const auto& [first, second] : check::overlaps_at_start(scene, kMost)) {
+  for (const auto& [first, second] : check::overlaps_at_start(scene, check::kAllOverlaps)) {
     const auto owner = [&](scene::Index i) {
       const scene::Collider& collider = scene.colliders[i];
       const Path path = collider.body ? scene.bodies[*collider.body].path : collider.path;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tenon/base/limits/reading_limits.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/bytes/asset_resolver.h"
 
 namespace tenon::bytes {
@@ -56,7 +57,7 @@ Result<void> ReadPolicy::check_real(const std::string& real, const std::string& 
                "@" + path + "@" + leads + " is outside of the folders that the asset may read")
       .with_rule(kOutsideRule)
       .with_fix("if it is meant to go into the result, give --allow-read " +
-                fs::path(real).parent_path().string());
+                shell_word(fs::path(real).parent_path().string()));
 }
 
 Result<void> ReadPolicy::check(const std::string& path) const {

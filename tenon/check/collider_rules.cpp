@@ -26,11 +26,10 @@ using scene::ShapeKind;
 
 /// The smaller of two solids may reach this part of its size into the other.
 constexpr double kDepth = 0.1;
-/// Pairs that are told apart shape by shape, and those that are reported; a heap of bodies in one
-/// place has millions.
-constexpr std::size_t kMaxPairs = 200000;
 constexpr std::size_t kMaxSteps = 50000000;  // of the sweep, where most shapes are side by side
+/// Pairs that are reported one by one, and those that are counted.
 constexpr std::size_t kMaxReports = 100;
+constexpr std::size_t kMaxCounted = 10000;
 
 Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
   return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
@@ -129,6 +128,17 @@ double signed_volume(const scene::TriangleMesh& mesh) {
   return volume;
 }
 
+/// The instance that shares a prim with others, whose findings would be equal without its name.
+Path instance_of(stage::Prim prim) {
+  if (!prim || !prim.is_instance_proxy()) {
+    return {};
+  }
+  while (!prim.is_instance()) {
+    prim = prim.parent();
+  }
+  return prim.path();
+}
+
 /// Reaching into each other by more than what rounding and resting contacts explain.
 bool reach_into(Placed a, Placed b) {
   const bool a_smaller = length(a.high - a.low) <= length(b.high - b.low);
@@ -147,7 +157,7 @@ std::vector<std::pair<Index, Index>> overlaps_at_start(const scene::PhysicsScene
   for (std::size_t i = 0; i < placed.size() && found.size() < most; ++i) {
     const Collider& a = scene.colliders[placed[i].collider];
     for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
-      if (pairs >= kMaxPairs || found.size() >= most || ++steps > kMaxSteps) {
+      if (pairs >= kAllOverlaps || found.size() >= most || ++steps > kMaxSteps) {
         return found;
       }
       const Collider& b = scene.colliders[placed[j].collider];
@@ -167,18 +177,29 @@ std::vector<std::pair<Index, Index>> overlaps_at_start(const scene::PhysicsScene
 
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const scene::PhysicsScene& scene = subject.scene;
-  for (const auto& [a, b] : overlaps_at_start(scene, kMaxReports)) {
-    const Collider& first = scene.colliders[a];
-    const Collider& second = scene.colliders[b];
-    Message message = "at the start the collider reaches into " +
-                      named(second.path, RelatedRole::Collider) +
-                      ": the solver will push them apart violently";
+  auto overlaps = overlaps_at_start(scene, kMaxCounted);
+  const std::size_t found = overlaps.size();
+  overlaps.resize(std::min(found, kMaxReports));
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    const Collider& first = scene.colliders[overlaps[i].first];
+    const Collider& second = scene.colliders[overlaps[i].second];
+    const stage::Prim prim = subject.stage.prim(first.path);
+    Message message = "at the start the collider";
+    if (const Path instance = instance_of(prim); !instance.empty()) {
+      message += " of the instance " + named(instance, RelatedRole::Prim);
+    }
+    message += " reaches into " + named(second.path, RelatedRole::Collider);
+    if (i + 1 == kMaxReports && found > kMaxReports) {
+      message += std::string(found == kMaxCounted ? ", and at least " : ", and ") +
+                 std::to_string(found - kMaxReports) + " more pairs overlap";
+    }
+    message += ": the solver will push them apart violently";
     for (const Collider* collider : {&first, &second}) {
       if (collider->body) {
         message.about(scene.bodies[*collider->body].path, RelatedRole::Body);
       }
     }
-    report.at(subject.stage.prim(first.path), message,
+    report.at(prim, message,
               "move them apart, or filter all such pairs with `tenon set ASSET --filter-overlaps`");
   }
 }

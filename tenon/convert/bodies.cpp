@@ -108,7 +108,9 @@ void write_frame(RobotLayer& layer, const LinkPrim& prim, const robot::Link& lin
                  "the root \"" + link.name +
                      "\" has no mass: it is not a body, and what fixed joints hold to it stands "
                      "still",
-                 "convert with --float-base where the robot is free to move");
+                 link.colliders.empty()
+                     ? "give it an inertial where the robot is free to move"
+                     : "convert with --float-base where the robot is free to move");
   }
   if (prim.role == LinkRole::Frame) {
     layer.builder().apply(prim.path, "IsaacSiteAPI");

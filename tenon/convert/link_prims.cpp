@@ -88,14 +88,16 @@ LinkPrim placed_link(const Source& source, Index link, const LinkPrims& links) {
   return prim;
 }
 
-Error too_deep(const robot::RobotModel& model, const robot::Link& link) {
+/// `flat`: links are side by side already, and only frames, which weigh nothing, are nested.
+Error too_deep(const robot::RobotModel& model, const robot::Link& link, bool flat) {
   return Error(ErrorCode::Limit, "the link \"" + link.name + "\" is nested deeper than " +
                                      std::to_string(kNestedLinks) + " links")
       .in_file(model.file)
       .at(link.place.line, link.place.column)
       .until(link.place.end_line, link.place.end_column)
       .with_rule("convert.too-deep")
-      .with_fix("convert with --flat");
+      .with_fix(flat ? "give links of the chain an inertial: those without one are nested"
+                     : "convert with --flat");
 }
 
 }  // namespace
@@ -117,7 +119,7 @@ Result<LinkPrims> place_links(const Source& source, Path robot) {
       parent = robot;
     }
     if (parent.depth() > kNestedLinks) {
-      return too_deep(model, model.links[link]);
+      return too_deep(model, model.links[link], options.flat);
     }
     prim.path = parent.child(names.make(model.links[link].name));
     links.prims[link] = prim;

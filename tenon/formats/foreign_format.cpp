@@ -11,6 +11,8 @@
 #include <cstring>
 #include <utility>
 
+#include "tenon/base/text/shell_word.h"
+
 namespace tenon::formats {
 namespace {
 
@@ -154,9 +156,9 @@ std::string foreign_format_advice(ForeignFormat format, const std::string& name)
       return {};
     case ForeignFormat::Urdf:
     case ForeignFormat::Mjcf:
-      return "run `tenon convert " + name + " out/`";
+      return "run `tenon convert " + shell_word(name) + " out/`";
     case ForeignFormat::Xacro:
-      return "run `xacro " + name + " > out.urdf`, then `tenon convert out.urdf out/`";
+      return "run `xacro " + shell_word(name) + " > out.urdf`, then `tenon convert out.urdf out/`";
     case ForeignFormat::Sdf:
       return "SDF cannot be converted: export the model as URDF or MJCF, then run `tenon convert` "
              "on it";
@@ -165,7 +167,7 @@ std::string foreign_format_advice(ForeignFormat format, const std::string& name)
     case ForeignFormat::Gltf:
     case ForeignFormat::Ply:
       return "run `tenon new scene.usda`, then `tenon add scene.usda /World/part=mesh --file " +
-             name + "`";
+             shell_word(name) + "`";
     case ForeignFormat::Collada:
       return "name it as the <mesh filename=\"" + name +
              "\"/> of a link in a URDF, and run `tenon "

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Wavefront OBJ: v, vt, vn, f and usemtl, and of its material libraries newmtl, Kd, d, Tr, map_Kd.
-// Faces keep their corners; one mesh for each material in order of first use.
+// Faces keep their corners; one mesh for each material in order of first use. Nothing marks the end
+// of a file but the end of its last line: without that a warning says that it may be cut.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -39,7 +40,11 @@ class ObjReader {
  public:
   ObjReader(std::string_view text, const std::string& path, const bytes::ReadPolicy& policy,
             Diagnostics& diagnostics)
-      : scanner_(text), path_(path), policy_(policy), diagnostics_(diagnostics) {}
+      : scanner_(text),
+        path_(path),
+        policy_(policy),
+        diagnostics_(diagnostics),
+        last_line_ends_(text.ends_with('\n')) {}
 
   Result<MeshScene> run() {
     while (scanner_.next_line()) {
@@ -312,6 +317,12 @@ class ObjReader {
           Severity::Warning, "mesh.left-out",
           std::to_string(left_out_) + " lines, points and curves of the mesh are skipped", path_));
     }
+    if (!last_line_ends_) {
+      diagnostics_.add(file_finding(
+          Severity::Warning, "mesh.may-be-cut",
+          "the last line of the mesh has no line end: where the file was cut, faces are missing",
+          path_, scanner_.line(), "copy the whole file again, or end the line where it is whole"));
+    }
     return scene;
   }
 
@@ -319,6 +330,7 @@ class ObjReader {
   const std::string& path_;
   const bytes::ReadPolicy& policy_;
   Diagnostics& diagnostics_;
+  bool last_line_ends_;
   std::vector<Vec3f> points_;
   std::vector<Vec3f> normals_;
   std::vector<Vec2f> textures_;

@@ -144,6 +144,32 @@ TEST_F(ReadMesh, RefusesStlsThatContradictThemselves) {
   EXPECT_EQ(cut.error().diagnostic().line, 4u);
 }
 
+// Where the file that is whole ends before its last line, it is no STL, wherever it is cut.
+TEST_F(ReadMesh, RefusesStlsThatAreCut) {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\n";
+  const std::string text = "solid x\n" + facet + facet + "endsolid";
+  ASSERT_TRUE(read_stl(text, "x.stl"));
+  ASSERT_TRUE(read_stl("solid\n" + facet + "end solid\n", "x.stl"));
+  const std::string binary = binary_stl(kTwoTriangles, 2, "solid but binary");
+  for (const std::string& whole : {text, binary}) {
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const auto cut = read_stl(whole.substr(0, size), "x.stl");
+      ASSERT_FALSE(cut) << size;
+      EXPECT_EQ(cut.error().diagnostic().file, "x.stl");
+      EXPECT_EQ(cut.error().diagnostic().rule, "mesh.stl");
+    }
+  }
+  const auto cut = read_stl("solid x\n" + facet, "x.stl");
+  EXPECT_EQ(cut.error().diagnostic().line, 8u);
+  EXPECT_NE(cut.error().message().find("line 1: it has no \"endsolid\""), std::string::npos);
+  EXPECT_NE(read_stl(binary.substr(0, 150), "x.stl").error().message().find("counts 2 triangles"),
+            std::string::npos);
+  EXPECT_EQ(read_stl("solid x\nfacet\nvertex 0 0 0\nendsolid\n", "x.stl").error().code(),
+            ErrorCode::Parse);
+}
+
 TEST_F(ReadMesh, RefusesStlsWithPointsThatAreNoNumbers) {
   for (const float bad : {NAN, INFINITY, -INFINITY}) {
     std::vector<Vec3f> corners = kTwoTriangles;
@@ -232,6 +258,17 @@ TEST_F(ReadMesh, RefusesBadObj) {
     ASSERT_FALSE(scene) << text;
     EXPECT_EQ(scene.error().code(), ErrorCode::Parse) << text;
   }
+}
+
+// Nothing says where an OBJ ends, but its last line does.
+TEST_F(ReadMesh, WarnsOfAnObjWhoseLastLineHasNoEnd) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n";
+  ASSERT_TRUE(read_obj(text, "x.obj", kAnywhere, findings_));
+  EXPECT_TRUE(findings_.items().empty());
+  ASSERT_TRUE(read_obj(text.substr(0, text.size() - 1), "x.obj", kAnywhere, findings_));
+  ASSERT_EQ(findings_.items().size(), 1u);
+  EXPECT_EQ(findings_.items()[0].rule, "mesh.may-be-cut");
+  EXPECT_EQ(findings_.items()[0].line, 5u);
 }
 
 constexpr const char* kCollada = R"(<?xml version="1.0"?>

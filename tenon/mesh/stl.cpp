@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Binary STL: 80 bytes of anything, a count, then 50 bytes for each triangle (normal, three points,
-// two bytes). Text STL: `facet normal`, `outer loop`, three `vertex`. A binary file may begin with
-// the word "solid", so the size decides first. Normals are what the points say; they are not kept.
+// two bytes). Text STL: `solid`, of each triangle `facet normal`, `outer loop`, three `vertex`,
+// then `endsolid`; without it the file was cut. A binary file may begin with the word "solid", so
+// the size decides first, then whether it has a byte that is 0, which no text has. Normals are what
+// the points say; they are not kept.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -94,36 +96,61 @@ Result<Vec3f> read_vertex(TextScanner& scanner, std::size_t facet, const std::st
   return point;
 }
 
-Result<MeshScene> read_text(std::string_view text, const std::string& path) {
-  TextScanner scanner(text);
-  PointWelder welder(0);
-  std::vector<std::int32_t> corners;
-  std::size_t in_facet = 0;
-  while (scanner.next_line()) {
-    const std::string_view word = scanner.word();
-    if (word == "vertex") {
-      TENON_TRY(const Vec3f point, read_vertex(scanner, corners.size() / 3 + 1, path));
-      if (corners.size() >= limits::kMeshCorners) {
-        return fault(ErrorCode::Limit, "mesh.stl", path, "more corners than a mesh may have")
-            .at(scanner.line(), 0);
-      }
-      corners.push_back(welder.number(point));
-      ++in_facet;
-    } else if (word == "endfacet") {
-      if (in_facet != 3) {
-        return fault(ErrorCode::Parse, "mesh.stl", path,
-                     "a facet has " + std::to_string(in_facet) + " vertices, not 3")
-            .at(scanner.line(), 0);
-      }
-      in_facet = 0;
+class TextReader {
+ public:
+  TextReader(std::string_view text, const std::string& path) : scanner_(text), path_(path) {}
+
+  Result<MeshScene> run() {
+    while (scanner_.next_line()) {
+      TENON_CHECK(read_line(scanner_.word()));
     }
+    if (solid_line_ != 0) {
+      return refuse("the file ends inside the solid that begins in line " +
+                    std::to_string(solid_line_) + ": it has no \"endsolid\"")
+          .with_fix("export the mesh again, or copy the whole file");
+    }
+    if (corners_.empty()) {
+      return refuse("the file has no facet");
+    }
+    return scene_of(welder_, std::move(corners_));
   }
-  if (corners.empty() || in_facet != 0) {
-    return fault(ErrorCode::Parse, "mesh.stl", path, "the file ends without a whole facet")
-        .at(scanner.line(), 0);
+
+ private:
+  Error refuse(std::string message, ErrorCode code = ErrorCode::Parse) const {
+    return fault(code, "mesh.stl", path_, std::move(message)).at(scanner_.line(), 0);
   }
-  return scene_of(welder, std::move(corners));
-}
+
+  Result<void> read_line(std::string_view word) {
+    if (word == "vertex") {
+      TENON_TRY(const Vec3f point, read_vertex(scanner_, corners_.size() / 3 + 1, path_));
+      if (corners_.size() >= limits::kMeshCorners) {
+        return refuse("more corners than a mesh may have", ErrorCode::Limit);
+      }
+      corners_.push_back(welder_.number(point));
+      ++in_facet_;
+    } else if (word == "endfacet") {
+      if (in_facet_ != 3) {
+        return refuse("a facet has " + std::to_string(in_facet_) + " vertices, not 3");
+      }
+      in_facet_ = 0;
+    } else if (word == "solid") {
+      solid_line_ = scanner_.line();
+    } else if (word == "endsolid" || (word == "end" && scanner_.word() == "solid")) {
+      if (in_facet_ != 0) {
+        return refuse("the solid ends inside a facet");
+      }
+      solid_line_ = 0;
+    }
+    return {};
+  }
+
+  TextScanner scanner_;
+  const std::string& path_;
+  PointWelder welder_{0};
+  std::vector<std::int32_t> corners_;
+  std::size_t in_facet_ = 0;
+  std::uint32_t solid_line_ = 0;  ///< of the solid that is open; 0 for none
+};
 
 }  // namespace
 
@@ -138,8 +165,9 @@ Result<MeshScene> read_stl(std::string_view bytes, const std::string& path) {
     return read_binary(bytes, path);
   }
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start != std::string_view::npos && bytes.substr(start).starts_with("solid")) {
-    return read_text(bytes, path);
+  const bool is_text = bytes.find('\0') == std::string_view::npos;
+  if (is_text && start != std::string_view::npos && bytes.substr(start).starts_with("solid")) {
+    return TextReader(bytes, path).run();
   }
   return fault(ErrorCode::Corrupt, "mesh.stl", path,
                has_header ? "the file counts " + std::to_string(count) + " triangles, but has " +

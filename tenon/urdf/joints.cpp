@@ -4,7 +4,7 @@
 // Joints name links, so all links are read before. A mimic may name a joint further down, so mimics
 // are read after all joints, from the elements that were kept beside them. An unknown link or type,
 // or text in place of a number, ends the reading. Missing bounds, and an effort or velocity of
-// zero, count as no limit and are reported.
+// zero, count as no limit and are reported; kNoUrdfLimit is how this program writes none.
 #include <cmath>
 
 #include "tenon/urdf/plain_urdf.h"
@@ -34,6 +34,17 @@ std::optional<JointKind> kind_named(const std::string& type) {
     }
   }
   return std::nullopt;
+}
+
+/// An end as far away as this program writes for none is none.
+std::optional<robot::Limit> limit_of_range(double lower, double upper) {
+  const auto end = [](double value) {
+    return std::fabs(value) >= kNoUrdfLimit ? std::copysign(robot::kUnlimited, value) : value;
+  };
+  if (lower <= -kNoUrdfLimit && upper >= kNoUrdfLimit) {
+    return std::nullopt;
+  }
+  return robot::Limit{end(lower), end(upper)};
 }
 
 Result<void> read_safety(XmlReader& xml, pugi::xml_node element, robot::Joint& joint) {
@@ -143,7 +154,7 @@ Result<void> UrdfReader::read_limit(pugi::xml_node element, robot::Joint& joint)
               "gives the joint \"" + joint.name + "\" no bounds; it is treated as unlimited",
               "write lower and upper, or type=\"continuous\"");
   } else if (bounded) {
-    joint.limit = robot::Limit{lower, upper};
+    joint.limit = limit_of_range(lower, upper);
   }
   // Many descriptions say 0 where they mean nothing; a joint that cannot move would be fixed.
   if (effort == 0 || velocity == 0) {

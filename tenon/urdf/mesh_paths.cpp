@@ -14,6 +14,7 @@
 
 #include <pugixml.hpp>
 
+#include "tenon/base/text/shell_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/asset_roots.h"
@@ -202,7 +203,7 @@ std::optional<std::string> MeshPaths::look_for(const std::string& written) {
 
 std::string MeshPaths::advice(const std::string& written) const {
   if (written.find("$(") != std::string::npos || written.find("${") != std::string::npos) {
-    const std::string file = shown_path(path_);
+    const std::string file = shell_word(shown_path(path_));
     return "this is an unexpanded xacro: run `xacro " + file + " > out.urdf` and convert out.urdf";
   }
   if (const auto parts = package_parts(written)) {

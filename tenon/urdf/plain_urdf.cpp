@@ -24,7 +24,7 @@ using robot::JointKind;
 
 namespace {
 
-constexpr double kFarAway = 1e9;        // [m or rad] the end of a range that has none
+constexpr std::size_t kNamed = 20;      // joints that one message names
 constexpr double kAlmostNone = 1e-6;    // of the child's mass and inertia
 constexpr double kLeastInertia = 1e-9;  // [kg], [kg m^2] where the child has none
 
@@ -53,11 +53,19 @@ class Replacement {
     }
     const std::size_t count = model_.joints.size();
     for (std::size_t i = 0; i < count; ++i) {
-      if (model_.joints[i].kind == JointKind::Ball) {
-        spread_ball(i);
+      robot::Joint& joint = model_.joints[i];
+      if (joint.kind == JointKind::Ball) {
+        spread_ball(i);  // says what becomes of it
+        continue;
       }
-      bound_slide(model_.joints[i]);
+      bound_slide(joint);
+      if (joint.has_one_axis()) {
+        limit(joint.effort_limit, joint.name, without_effort_);
+        limit(joint.velocity_limit, joint.name, without_speed_);
+      }
     }
+    report_unlimited(without_effort_, "effort");
+    report_unlimited(without_speed_, "speed");
   }
 
  private:
@@ -153,17 +161,45 @@ class Replacement {
   void bound_slide(robot::Joint& joint) {
     const bool needs = joint.kind == JointKind::Prismatic || joint.kind == JointKind::Revolute;
     if (needs && !joint.limit) {
-      joint.limit = robot::Limit{-kFarAway, kFarAway};
-      report(Severity::Info, "the range of joint \"" + joint.name +
-                                 "\" has no end, which URDF cannot say; it is written as 1e9 m "
-                                 "both ways");
+      joint.limit = robot::Limit{-kNoUrdfLimit, kNoUrdfLimit};
+      report(Severity::Warning, "the range of joint \"" + joint.name +
+                                    "\" has no end, which URDF cannot say; it is written as 1e9 " +
+                                    (joint.kind == JointKind::Prismatic ? "m" : "rad") +
+                                    " both ways, which this program reads as no limit");
     }
+  }
+
+  static void limit(double& value, const std::string& joint, std::vector<std::string>& without) {
+    if (!(value < kNoUrdfLimit)) {
+      value = kNoUrdfLimit;
+      without.push_back(joint);
+    }
+  }
+
+  /// Names the joints that got kNoUrdfLimit.
+  void report_unlimited(const std::vector<std::string>& joints, const std::string& of) {
+    if (joints.empty()) {
+      return;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < std::min(joints.size(), kNamed); ++i) {
+      names += (i == 0 ? "\"" : ", \"") + joints[i] + "\"";
+    }
+    if (joints.size() > kNamed) {
+      names += " and " + std::to_string(joints.size() - kNamed) + " more";
+    }
+    report(Severity::Warning, (joints.size() == 1 ? "joint " : "joints ") + names +
+                                  (joints.size() == 1 ? " has" : " have") + " no limit of " + of +
+                                  ", which URDF requires; 1e9 is written, which this program reads "
+                                  "as no limit and others as a limit");
   }
 
   robot::RobotModel& model_;
   Diagnostics& diagnostics_;
   std::set<std::string> names_;
   std::size_t capsules_ = 0;
+  std::vector<std::string> without_effort_;
+  std::vector<std::string> without_speed_;
 };
 
 }  // namespace

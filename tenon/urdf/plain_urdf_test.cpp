@@ -78,7 +78,23 @@ TEST(PlainUrdf, SlidesWithoutAnEndAreNotLocked) {
   make_plain(model, findings);
   EXPECT_EQ(model.joints[0].limit->lower, -1e9);
   EXPECT_EQ(model.joints[0].limit->upper, 1e9);
-  EXPECT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings.size(), 3u);  // range, effort, speed
+}
+
+TEST(PlainUrdf, NamesTheJointsThatHaveNoLimitOfEffortOrSpeed) {
+  robot::RobotModel model = robot_with(JointKind::Continuous);
+  model.joints.push_back(model.joints[0]);
+  model.joints[0].velocity_limit = 3;
+  model.joints[1].name = "other";
+  Diagnostics findings;
+  make_plain(model, findings);
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_NE(findings.items()[0].message.find("joints \"joint\", \"other\" have no limit of effort"),
+            std::string::npos);
+  EXPECT_NE(findings.items()[1].message.find("joint \"other\" has no limit of speed"),
+            std::string::npos);
+  EXPECT_EQ(model.joints[0].velocity_limit, 3);
+  EXPECT_EQ(model.joints[1].velocity_limit, kNoUrdfLimit);
 }
 
 TEST(PlainUrdf, NumbersComeBackAsTheyWere) {

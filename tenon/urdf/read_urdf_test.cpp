@@ -194,6 +194,20 @@ TEST_F(ReadUrdf, TakesALimitWithoutBoundsAsNone) {
   EXPECT_EQ(found(), "urdf.missing:3 ");
 }
 
+// What this program writes for none is read as none.
+TEST_F(ReadUrdf, TakesALimitOfABillionAsNone) {
+  const auto open = read(
+      joint("prismatic", "<limit lower='-1e9' upper='1e9' effort='1000000000' velocity='1e9'/>"));
+  ASSERT_TRUE(open);
+  EXPECT_FALSE(open->joints[0].limit);
+  EXPECT_EQ(open->joints[0].effort_limit, robot::kUnlimited);
+  EXPECT_EQ(open->joints[0].velocity_limit, robot::kUnlimited);
+  const auto half = read(joint("revolute", "<limit lower='-1' upper='1e9'/>"));
+  ASSERT_TRUE(half);
+  EXPECT_EQ(half->joints[0].limit->lower, -1);
+  EXPECT_EQ(half->joints[0].limit->upper, robot::kUnlimited);
+}
+
 TEST_F(ReadUrdf, ListsWhatItLeavesOut) {
   ASSERT_TRUE(
       read("<link name='a' color='red'>\n<visual><geometry><box size='1 1 1'/></geometry>\n"

@@ -44,6 +44,13 @@ class BadMeshes(unittest.TestCase):
         "a.obj": (b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n", "a.obj:3: error: a point has"),
         "b.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
                   'b.obj:4: error: a face names "4" of 3 so far'),
+        # Cut in the middle.
+        "c.stl": (b"solid s\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nfacet\n",
+                  'c.stl:7: error: the file ends inside the solid that begins in line 1: it has no '
+                  '"endsolid"'),
+        "d.stl": (HEAD + FIRST, "d.stl: error: the file counts 2 triangles, but has 134 bytes, "),
+        "c.ply": (b"ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nend_header\n0\n",
+                  "c.ply: error: the file counts 9 of \"vertex\" and is too short for them"),
     }
 
     def test_are_told_and_left_out(self):
@@ -65,6 +72,43 @@ class BadMeshes(unittest.TestCase):
                     text = asset.read_text(encoding="utf-8")
                     self.assertNotRegex(text, r"\b(nan|inf)\b")
                     self.assertNotIn("def Mesh", text)
+
+
+class UnlimitedJoints(unittest.TestCase):
+    """What a description cannot leave open is told by names of joints, and read as open."""
+
+    ROBOT = ('<robot name="r"><link name="world"/><link name="a"/><link name="b"/>'
+             '<joint name="j" type="revolute"><parent link="world"/><child link="a"/>'
+             '<limit lower="-1" upper="1" effort="5" velocity="2"/></joint>'
+             '<joint name="k" type="prismatic"><parent link="a"/><child link="b"/><limit/></joint>'
+             '</robot>')
+
+    def test_are_told_and_come_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            asset = pathlib.Path(folder, "r.usda")
+            urdf = pathlib.Path(folder, "r.urdf")
+            pathlib.Path(folder, "a.urdf").write_text(self.ROBOT, encoding="utf-8")
+            tenon("convert", pathlib.Path(folder, "a.urdf"), asset)
+            _, answer = tenon("convert", asset, urdf)
+            told = "\n".join(d["message"] for d in answer["diagnostics"]
+                             if d["rule"] == "urdf.replaced" and d["severity"] == "warning")
+            self.assertIn('the range of joint "k" has no end', told)
+            self.assertIn('joint "k" has no limit of effort', told)
+            self.assertIn('joint "k" has no limit of speed', told)
+            self.assertNotIn('"j"', told)
+            tenon("convert", urdf, pathlib.Path(folder, "back.usda"))
+            again = pathlib.Path(folder, "back.usda").read_text(encoding="utf-8")
+            self.assertNotIn("1e9", again.replace("1000000000", "1e9"))
+            self.assertIn("lowerLimit = -57.29578", again)
+
+    def test_limits_of_speed_that_mjcf_lacks_are_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            asset = pathlib.Path(folder, "r.usda")
+            pathlib.Path(folder, "a.urdf").write_text(self.ROBOT, encoding="utf-8")
+            tenon("convert", pathlib.Path(folder, "a.urdf"), asset)
+            _, answer = tenon("convert", asset, pathlib.Path(folder, "r.xml"))
+            self.assertEqual([(d["severity"], d["prim"][-1]) for d in answer["diagnostics"]
+                              if d["property"] == "velocityLimit"], [("warning", "j")])
 
 
 class NamesOfImages(unittest.TestCase):

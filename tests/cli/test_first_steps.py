@@ -289,6 +289,25 @@ class "Shape"
         self.assertIn("</World/b>", text)
         self.assertNotIn("shape/box>", text)
 
+    def test_each_pair_is_told_and_many_are_counted(self):
+        self.assertEqual(len(self.overlaps()), 3)
+        instances = "".join(
+            f'def Xform "{name}" (\ninstanceable = true\nreferences = </Part>\n)\n{{\n'
+            f"double3 xformOp:translate = ({0.1 * i}, 0, 0)\n"
+            'uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+            for i, name in enumerate("abc"))
+        part = ('class "Part"\n{\ndef Cube "box" (prepend apiSchemas = ["PhysicsCollisionAPI",'
+                '"PhysicsRigidBodyAPI"])\n{\n}\n}\n')
+        self.write("s.usda", self.SCENE % instances + part)
+        self.assertEqual(len(self.overlaps()), 3)  # of one place in the file
+        bodies = "".join(self.BODY % (f"b{i}", 0.001 * i) for i in range(20))
+        self.write("s.usda", self.SCENE % bodies)
+        found = self.overlaps()
+        self.assertEqual(len(found), 100)
+        self.assertEqual(sum("and 90 more pairs overlap" in d["message"] for d in found), 1)
+        self.tenon("set", "s.usda", "--filter-overlaps")
+        self.assertEqual(self.overlaps(), [])
+
     def test_all_of_them_in_one_command(self):
         fix = self.overlaps()[0]["fix"]
         command = re.search(r"`tenon (set .*?)`", fix).group(1).replace("ASSET", "s.usda")

@@ -513,7 +513,7 @@ class Effects(Case):
         self.assertIn("of type Xform, which is not a collider shape; choose a shape below it: "
                       "--collider /R/a=convexHull", self.vain("--collider", "/R=convexHull"))
         self.assertIn("belongs to no body", self.vain("--mass", "/R=2"))
-        self.assertIn("does not change; tenon set --clear /R/a.physics:mass",
+        self.assertIn("does not change; tenon set ASSET --clear /R/a.physics:mass",
                       self.vain("/R/a.physics:density=7"))
         self.set("--collider", "/R/a=on")
         self.original = self.files()

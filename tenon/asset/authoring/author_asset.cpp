@@ -7,6 +7,7 @@
 
 #include "tenon/asset/authoring/remove_edits.h"
 #include "tenon/asset/layers/asset_layers.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/edit/stage_editor.h"
@@ -32,7 +33,7 @@ Result<void> check_opens(const AssetArc& arc, const bytes::Files& files) {
   return Error(ErrorCode::Invalid, "it cannot be read as USD, so nothing can reference it")
       .in_file(arc.file)
       .with_rule("edit.not-a-layer")
-      .with_fix("name a .usd, .usda, .usdc or .usdz file; tenon check " + name +
+      .with_fix("name a .usd, .usda, .usdc or .usdz file; tenon check " + shell_word(name) +
                 " says what is wrong with a USD file, tenon convert reads URDF and MJCF");
 }
 

@@ -37,7 +37,7 @@ const char* sarif_level(Severity severity) {
 /// The path of a URI: what is not a plain letter of one is written as its bytes.
 std::string sarif_uri(const std::string& path) {
   std::string uri;
-  for (const char c : shown_path(path)) {
+  for (const char c : path_from_here(path)) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain =
         std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string::npos;

@@ -65,7 +65,8 @@ Result<void> check_new_property(const AllFiles& files, const AssetEdit& edit) {
                    "<" + prim.property(Token(edit.value)).str() + "> is there already")
           .with_prim(prim.str())
           .with_rule("edit.property-exists")
-          .with_fix("choose another name, or remove it first with `tenon set --clear`");
+          .with_fix("choose another name, or remove it first: tenon set ASSET --clear " +
+                    prim.property(Token(edit.value)).str());
     }
   }
   return {};
@@ -172,8 +173,8 @@ Result<std::string> file_that_goes(const AllFiles& files, const AssetEdit& edit)
       return Error(ErrorCode::Invalid, "the file of the variant " + edit.value + " says something")
           .in_file(file)
           .with_rule("edit.in-use")
-          .with_fix("remove that first, or take the variant alone: =variant --variant " +
-                    edit.value);
+          .with_fix("remove that first, or take the variant alone: tenon remove ASSET " +
+                    edit.object.str() + "=variant --variant " + edit.value);
     }
     return file;
   }

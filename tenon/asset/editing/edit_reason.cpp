@@ -178,7 +178,7 @@ MaybeReason no_mass(const PhysicsView& view, const stage::Prim& prim, const Asse
   const bool is_collider = object_at(view.scene.colliders, prim.path()) != nullptr;
   if (property_of(edit) == "physics:density" && is_authored(prim, "physics:mass")) {
     return Reason{"its mass is authored, which a density does not change",
-                  "tenon set --clear " + prim.path().str() + ".physics:mass"};
+                  "tenon set ASSET --clear " + prim.path().str() + ".physics:mass"};
   }
   if (!is_body && is_collider && is_authored(body, "physics:mass")) {
     return Reason{"the mass of the body " + named(body.path(), RelatedRole::Body) +

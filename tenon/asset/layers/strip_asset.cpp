@@ -12,6 +12,7 @@
 
 #include "tenon/asset/layers/asset_layers.h"
 #include "tenon/base/file_finding.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/files.h"
@@ -33,16 +34,16 @@ void report_outside(const AssetLayers& asset, const std::string& path, const Ope
     }
     layer::Layer copy = **layer;
     if (physics::strip_physics(copy).total() != 0) {
-      diagnostics.add(
-          file_finding(Severity::Error, bytes::kOutsideRule,
-                       "the layer @" + identifier +
-                           "@ is outside of the folders of the asset; its physics "
-                           "stays",
-                       path, 0,
-                       "if it belongs to the asset, give --allow-read " +
-                           std::filesystem::path(bytes::split_package_path(identifier).package)
-                               .parent_path()
-                               .string()));
+      diagnostics.add(file_finding(
+          Severity::Error, bytes::kOutsideRule,
+          "the layer @" + identifier +
+              "@ is outside of the folders of the asset; its physics "
+              "stays",
+          path, 0,
+          "if it belongs to the asset, give --allow-read " +
+              shell_word(std::filesystem::path(bytes::split_package_path(identifier).package)
+                             .parent_path()
+                             .string())));
     }
   }
 }
@@ -90,7 +91,9 @@ Result<MutedAsset> mute_asset(const std::string& path, const StripOptions& optio
   const layer::Layer& root = stage.root_layer();
   const std::string output = root_output(options.output, root);
   const bytes::Files& files = options.open.files;
-  if (files->real_path(root.identifier()) == files->real_path(bytes::absolute_file_path(output))) {
+  const bool same =
+      files->real_path(root.identifier()) == files->real_path(bytes::absolute_file_path(output));
+  if (same && !options.in_place) {
     return Error(ErrorCode::Invalid, "the layer over the asset would replace the asset")
         .in_file(output)
         .with_rule("output.is-input")

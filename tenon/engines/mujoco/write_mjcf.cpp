@@ -36,7 +36,7 @@ void report_not_mapped(const Model& model, Diagnostics& diagnostics) {
 void report_lost(const Path& prim, const char* property, const char* what,
                  Diagnostics& diagnostics) {
   Diagnostic finding;
-  finding.severity = Severity::Info;
+  finding.severity = Severity::Warning;
   finding.rule = "mujoco.not-mapped";
   finding.message = std::string(what) + " no part of MuJoCo's models; tenon's own runs have them";
   finding.prim = prim.str();

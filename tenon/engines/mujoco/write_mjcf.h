@@ -14,9 +14,9 @@ namespace tenon::engines::mujoco {
 /// The model that would be simulated, as text in MuJoCo's own format; meshes are inline, the state
 /// is that of the start. The time step is that of the scene, undivided; where the scene has
 /// MjcSceneAPI, so are all options and flags, with MuJoCo's defaults for the others. What MuJoCo
-/// does not support goes to `diagnostics`, each as an Info named "mujoco.not-mapped". Averaged
-/// friction of two materials is computed at run time and not included. Errors: those of making a
-/// model.
+/// does not support goes to `diagnostics`, each named "mujoco.not-mapped": a Warning where runs of
+/// this program do it from step to step, else an Info. Averaged friction of two materials is
+/// computed at run time and not included. Errors: those of making a model.
 Result<std::string> write_mjcf(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics);
 
