@@ -331,6 +331,9 @@ class Skipping(Case):
         self.settings('[check.skip]\n"mass.negative" = "there"\n', "b/tenon.toml")
         self.settings("", "b/c/tenon.toml")
         told = self.json("check", self.root, code=1)
+        for row in told["diagnostics"] + told["assets"] + told["skipped"]:
+            for field in {"file", "asset", "settings"} & {key for key in row if row[key]}:
+                row[field] = os.path.relpath(row[field], self.root)
         self.assertEqual([row["file"] for row in told["diagnostics"]
                           if row["rule"] == "mass.negative"], ["b/c/x.usda"])
         self.assertEqual({row["asset"]: row["settings"] for row in told["assets"]},
