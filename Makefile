@@ -9,7 +9,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 .DELETE_ON_ERROR:
 
 help:
-	@echo "make demo    build tenon, let the example hand grasp, say what to look at"
+	@echo "make demo    build tenon quickly (build/quick), let the example hand grasp, show what to look at"
 	@echo "make test    build with sanitizers and run every test"
 	@echo "make build   only the program: build/release/bin/tenon; ENGINES=all: PhysX and Jolt too"
 	@echo "make wheel   the Python package with every engine: dist/tenon_usd-*.whl"
@@ -49,8 +49,9 @@ deb:
 	@cpack --config build/release/CPackConfig.cmake -B build/deb > build/deb.log || { cat build/deb.log; exit 1; }
 	@mv build/deb/*.deb dist/ && ls dist/*.deb
 
-demo: build
-	@tools/demo.sh
+demo: packages
+	@tools/quiet_build.sh quick $(JOBS) all
+	@tools/demo.sh build/quick
 
 # Some tests are of the program that users run.
 test: test-packages oracle build/dev/build.ninja build/release/build.ninja

@@ -2,9 +2,11 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 # The demonstration behind `make demo`: the example hand closes on an object and holds it.
+#   tools/demo.sh BUILD
 set -euo pipefail
 cd "$(dirname "$0")/.."
-tenon=build/release/bin/tenon
+build=$1
+tenon=$build/bin/tenon
 hand=examples/inspire_hand/inspire_hand.usda
 grasp=examples/inspire_hand/grasp.usda
 motion=build/demo/grasp_motion.usda
@@ -35,7 +37,7 @@ awk -F, '
 
 # The page is built where node 18 and npm are, and a Chromium draws it. Neither has to be here.
 looked_at=
-if [ -e build/release/share/tenon/page/report.html ]; then
+if [ -e "$build/share/tenon/page/report.html" ]; then
   step "One page with all of it" -- \
     "$tenon" report "$grasp" --physics mujoco --duration 4 -o "$page"
   looked_at="   $page             the same in one page: open it in a browser and press play
@@ -71,4 +73,6 @@ $looked_at   $motion   open it in any USD viewer and press play
    $tenon view FILE.usda                     or in the browser, live
    $tenon record FILE.usda -o motion.webm    or as a film, or a picture (.png)
    $tenon --help                             everything else
+
+$tenon is compiled with few optimisations; make build makes the fast one.
 END
