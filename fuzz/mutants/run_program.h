@@ -10,7 +10,7 @@ namespace tenon::fuzz {
 
 /// What a program may take before it is ended.
 struct ProgramLimits {
-  double seconds = 20;            ///< of processor time; six times as much of wall time
+  double seconds = 10;            ///< of processor time; six times as much of wall time
   std::size_t address_space = 0;  ///< [bytes]; 0: as much as there is
 };
 

@@ -3,6 +3,8 @@
 // Adds one arc to the graph. A site that is not a root prim brings along what applies to it because
 // of its ancestors: an index of its own is built for it and moved in as a subtree. Such inner
 // indices leave variants to the outermost one, which sees the strongest selections.
+#include <algorithm>
+
 #include "tenon/base/limits/limits.h"
 #include "tenon/compose/arcs/authored_arc.h"
 #include "tenon/compose/composition_error.h"
@@ -35,8 +37,18 @@ bool is_implied_class(ArcKind kind, NodeId parent, NodeId origin) {
   return is_class_based(kind) && parent != origin;
 }
 
-bool nested(const Site& a, const Site& b) {
-  return a.layer_stack == b.layer_stack && (a.path.has_prefix(b.path) || b.path.has_prefix(a.path));
+constexpr std::size_t kPathUnits = 8;  // of looking at the paths of two sites
+
+/// Whether one site is at or below the other. Where thousands of nodes are looked at, their paths
+/// are all over the memory, which takes as long as several visits.
+bool nested(const NodeGraph& graph, const Site& a, const Site& b) {
+  graph.count(1);
+  if (a.layer_stack != b.layer_stack) {
+    return false;
+  }
+  const auto [low, high] = std::minmax(a.path.depth(), b.path.depth());
+  graph.count(kPathUnits + high - low);
+  return a.path.has_prefix(b.path) || b.path.has_prefix(a.path);
 }
 
 /// The path that something at `path` in an inner graph will have in the outer one: the inner graph
@@ -66,8 +78,7 @@ bool closes_cycle(const Indexer& indexer, const Arc& arc, Site site) {
   for (FrameCursor at{&indexer.graph, arc.parent, indexer.frame}; !at.at_end();
        at.to_outer_frame()) {
     for (NodeId id = at.node; id != kNoNode; id = (*at.graph)[id].parent) {
-      at.graph->count(1);
-      if (nested(at.graph->site(id), site)) {
+      if (nested(*at.graph, at.graph->site(id), site)) {
         return true;
       }
     }
