@@ -18,14 +18,39 @@ using scene::Index;
 constexpr double kPositionIterations = 16;
 constexpr double kMostIterations = 255;   // PhysX keeps them in a byte
 constexpr float kBounceThreshold = 0.2F;  // [m/s] slower impacts do not rebound
+// PhysX's own for metres; it makes them of the length that is small to it (physx_library.cpp), and
+// impacts then have no friction.
+constexpr float kFrictionOffset = 0.04F;        // [m] where friction begins to act
+constexpr float kFrictionCorrelation = 0.025F;  // [m] contacts as near as that share it
+constexpr double kTurned = 1e-6;                // sine of half an angle
 
 bool is_on(const Settings& settings, std::string_view name) {
   return number_of(settings, name).value_or(0) != 0;
 }
 
+bool turns(const scene::PoseTrack& track) {
+  return std::any_of(track.poses.begin(), track.poses.end(), [&](const Pose& pose) {
+    const Quatd turn = conjugate(track.poses.front().orientation) * pose.orientation;
+    return length(Vec3d{turn.x, turn.y, turn.z}) > kTurned;
+  });
+}
+
+/// A kinematic body of the scene that turns by itself: the solver PGS carries nothing round on it.
+bool has_turntable(const Build& build, Index scene) {
+  const auto is_in = [&](Index b) {
+    return build.scene.bodies[b].kinematic && build.scene.bodies[b].scene == scene;
+  };
+  return std::any_of(
+      build.scene.pose_tracks.begin(), build.scene.pose_tracks.end(),
+      [&](const auto& track) { return track.body && is_in(*track.body) && turns(track); });
+}
+
 bool solves_by_tgs(const Build& build, Index scene) {
-  return build.options.methods.solver == ConstraintSolver::Default &&
-         word_of(build.scene.scenes[scene].parts.physx, "solverType") == "TGS";
+  if (build.options.methods.solver != ConstraintSolver::Default) {
+    return false;
+  }
+  const std::string_view authored = word_of(build.scene.scenes[scene].parts.physx, "solverType");
+  return authored == "TGS" || (authored.empty() && has_turntable(build, scene));
 }
 
 px::PxFrictionType::Enum friction_type(std::string_view word) {
@@ -95,7 +120,15 @@ void set_solver(Build& build, Index scene, px::PxSceneDesc& wanted) {
   const Settings& settings = source.parts.physx;
   wanted.solverType = solves_by_tgs(build, scene) ? px::PxSolverType::eTGS : px::PxSolverType::ePGS;
   wanted.frictionType = friction_type(word_of(settings, "frictionType"));
+  if (solves_by_tgs(build, scene) && word_of(settings, "solverType") != "TGS") {
+    build.diagnostics.add({Severity::Info, "physx.solver",
+                           "a kinematic body turns, and PhysX's solver PGS carries nothing round "
+                           "on it: the solver TGS is used",
+                           source.path.str(), "", ""});
+  }
   wanted.bounceThresholdVelocity = kBounceThreshold;
+  wanted.frictionOffsetThreshold = kFrictionOffset;
+  wanted.frictionCorrelationDistance = kFrictionCorrelation;
   set_positive(settings, "bounceThreshold", [&](float x) { wanted.bounceThresholdVelocity = x; });
   set_positive(settings, "frictionOffsetThreshold",
                [&](float x) { wanted.frictionOffsetThreshold = x; });
