@@ -192,6 +192,9 @@ void OutputRecorder::add_energy() {
     values.insert(values.end(), {now.kinetic, now.potential});
     return {};
   });
+  if (!simulation_.can(engines::Ability::Work)) {
+    return;
+  }
   OutputSeries work = empty_series(SeriesOf::Scene, "work", "work");
   for (const auto& [label, member] : kWorkParts) {
     work.labels.emplace_back(label);

@@ -80,6 +80,7 @@ Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
   scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
   inputs_ = StepInputs(*scene_);
+  energy_bound_ = EnergyBound(model_.time_step);
   slow_turns_ = SlowTurns(model_);
   breakable_.clear();
   for (Index j = 0; j < scene_->joints.size(); ++j) {
@@ -97,6 +98,7 @@ Result<void> JoltSimulation::step() {
   if (options_.outputs.accelerations) {
     keep_velocities();
   }
+  energy_bound_.begin(*this, *scene_, steering_);
   inputs_.before_step(model_, steering_, time());
   TENON_CHECK(advance());
   slow_turns_.after_step(model_);
@@ -107,6 +109,7 @@ Result<void> JoltSimulation::step() {
   }
   ++steps_;
   TENON_CHECK(check_step());
+  TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "jolt.unstable"));
   if (options_.outputs.contacts) {
     contacts_ = read_contacts(*scene_, model_);
   }
@@ -202,6 +205,7 @@ Result<void> JoltSimulation::rebuild() {
   Diagnostics silent;  // what there is to say was said at the start
   TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
   inputs_ = StepInputs(*scene_);
+  energy_bound_ = EnergyBound(model_.time_step);
   slow_turns_ = SlowTurns(model_);
   apply_steering();
   return {};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/engines/energy_bound.h"
 #include "tenon/engines/input_log.h"
 #include "tenon/engines/jolt/model.h"
 #include "tenon/engines/jolt/run/slow_turns.h"
@@ -86,6 +87,7 @@ class JoltSimulation final : public Simulation {
   JPH::JobSystemSingleThreaded jobs_;
   Model model_;
   StepInputs inputs_;
+  EnergyBound energy_bound_;
   SlowTurns slow_turns_;
   Steering steering_;
   std::vector<Event> events_;

@@ -54,6 +54,7 @@ bool JoltSimulation::can(Ability ability) const { return ability != Ability::Wor
 void JoltSimulation::set_from_outside(Input input) {
   input.step = steps_;
   log_.add(input);
+  energy_bound_.note(input);
 }
 
 Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const DriveTarget& target) {

@@ -92,6 +92,7 @@ void PhysxSimulation::connect() {
   told_ = std::move(told);
   surfaces_ = std::move(surfaces);
   inputs_ = StepInputs(*scene_);
+  energy_bound_ = EnergyBound(model_.time_step);
   stale_ = true;
 }
 
@@ -104,12 +105,14 @@ Result<void> PhysxSimulation::step() {
     bring_up_to_date();
     outputs_.begin(*scene_, model_);
   }
+  energy_bound_.begin(*this, *scene_, steering_);
   inputs_.before_step(model_, steering_, time());
   advance();
   if (!messages.errors().empty()) {
     return unstable(time(), "PhysX says: " + messages.errors().front(), {});
   }
   TENON_CHECK(check_step());
+  TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "physx.unstable"));
   contacts_ = std::move(told_->contacts);
   if (outputs_.follows_motion()) {
     bring_up_to_date();

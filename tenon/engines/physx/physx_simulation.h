@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/engines/energy_bound.h"
 #include "tenon/engines/input_log.h"
 #include "tenon/engines/physx/model.h"
 #include "tenon/engines/physx/run/step_events.h"
@@ -88,6 +89,7 @@ class PhysxSimulation final : public Simulation {
   std::unique_ptr<SurfaceMotion> surfaces_;
   Model model_;
   StepInputs inputs_;
+  EnergyBound energy_bound_;
   Steering steering_;
   std::vector<Event> events_;
   std::vector<Contact> contacts_;

@@ -175,6 +175,9 @@ void TreeHolder::note(const Answer& answer, double impulse) {
 
 // What comes through a joint is what changes the momentum of all that hangs on it.
 Wrench TreeHolder::impulse(scene::Index joint) const {
+  if (noted_.empty()) {
+    return {};  // before the first step
+  }
   const std::size_t top = member_of_.at(joint);
   std::vector<char> hangs(members_.size(), 0);
   Screw sum;
