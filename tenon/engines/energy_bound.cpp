@@ -123,8 +123,8 @@ double other_springs(const Simulation& simulation, const PhysicsScene& scene, do
     const JointState state = simulation.joint_state(j);
     const scene::JointDofs dofs = joint_dofs(joint);
     for (std::size_t i = 0; i < dofs.free.size() && i < state.position.size(); ++i) {
-      const double beyond = std::max({dofs.free[i].lower - state.position[i],
-                                      state.position[i] - dofs.free[i].upper, 0.0});
+      const double beyond = std::max(
+          {dofs.free[i].lower - state.position[i], state.position[i] - dofs.free[i].upper, 0.0});
       for (const scene::LimitSpring& spring : joint.limit_springs) {
         energy += spring.dof == dofs.free[i].dof ? spring.stiffness * beyond * beyond / 2 : 0;
       }
@@ -146,8 +146,8 @@ void EnergyBound::note(const Input& input) {
   if (fresh_ || kind != InputKind::DriveTargets) {
     return;
   }
-  for (std::size_t i = first_[input.object];
-       i < drives_.size() && drives_[i].joint == input.object; ++i) {
+  for (std::size_t i = first_[input.object]; i < drives_.size() && drives_[i].joint == input.object;
+       ++i) {
     if (drives_[i].drive == input.part) {
       drives_[i].moved += std::fabs(input.numbers.front() - drives_[i].target);
       drives_[i].target = input.numbers.front();
@@ -278,9 +278,10 @@ void EnergyBound::look_at_drives(const Simulation& simulation, const PhysicsScen
       driven.target = drive.target_position;
       const double stretch = std::fabs(position - driven.target);
       const double pull = std::min(stiffness * stretch, most);
-      given_ += span > 0 ? driven.moved * std::max({pull, driven.pull,
-                                                    std::min(stiffness * driven.moved, most)})
-                         : 0;
+      given_ += span > 0
+                    ? driven.moved *
+                          std::max({pull, driven.pull, std::min(stiffness * driven.moved, most)})
+                    : 0;
       const double speed = std::fabs(drive.target_velocity);
       given_ += span * std::min(drive.damping * driven.inertia * speed * speed / 4, most * speed);
       const double stored = stiffness > 0 ? stored_in(stiffness, stretch, most) : 0;

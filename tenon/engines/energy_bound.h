@@ -38,9 +38,9 @@ class EnergyBound {
     std::size_t coordinate = 0;  ///< into JointState
     double inertia = 1;          ///< of drives by acceleration: at most what it moves [kg, kg m^2]
     double target = 0;
-    double moved = 0;    ///< length of the way of the target [m or rad]
-    double pull = 0;     ///< force at the last look [N or N m]
-    double stored = 0;   ///< energy of the spring at the last look [J]
+    double moved = 0;   ///< length of the way of the target [m or rad]
+    double pull = 0;    ///< force at the last look [N or N m]
+    double stored = 0;  ///< energy of the spring at the last look [J]
   };
   void set_baseline(const Simulation& simulation, const scene::PhysicsScene& scene,
                     const Steering& steering);
@@ -59,14 +59,14 @@ class EnergyBound {
   bool fresh_ = true;
   std::vector<Driven> drives_;
   std::vector<std::size_t> first_;  ///< of a joint, into drives_ (joint_count)
-  double scale_ = 0;     ///< what moves about in the scene by nature [J]
-  double extent_ = 0;    ///< [m]
-  double mass_ = 0;      ///< that can move [kg]
-  double carried_ = 0;   ///< largest speed of what follows poses [m/s]
-  double start_ = 0;     ///< energy at the baseline, springs of drives included [J]
-  double stored_ = 0;    ///< in those springs now [J]
-  double given_ = 0;     ///< at most, by inputs since the baseline [J]
-  double lowest_ = 0;    ///< potential energy since the baseline [J]
+  double scale_ = 0;                ///< what moves about in the scene by nature [J]
+  double extent_ = 0;               ///< [m]
+  double mass_ = 0;                 ///< that can move [kg]
+  double carried_ = 0;              ///< largest speed of what follows poses [m/s]
+  double start_ = 0;                ///< energy at the baseline, springs of drives included [J]
+  double stored_ = 0;               ///< in those springs now [J]
+  double given_ = 0;                ///< at most, by inputs since the baseline [J]
+  double lowest_ = 0;               ///< potential energy since the baseline [J]
   double highest_ = 0;
 };
 
