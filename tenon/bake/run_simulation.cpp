@@ -162,7 +162,8 @@ class Runner {
       : simulation_(simulation),
         options_(options),
         run_(run),
-        recorder_(simulation, scene, options, run.recording) {
+        recorder_(simulation, scene, options, run.recording),
+        joints_(simulation, scene) {
     if (options.commands != nullptr) {
       commands_.emplace(*options.commands, scene, simulation);
     }
@@ -182,6 +183,7 @@ class Runner {
       }
       TENON_CHECK(one_step(step));
     }
+    run_.joint_faults = joints_.faults();
     return recorder_.finish();
   }
 
@@ -197,6 +199,7 @@ class Runner {
     }
     recorder_.before_step(step);
     TENON_CHECK(simulation_.step());
+    joints_.after_step();
     TENON_CHECK(recorder_.after_step());
     ++run_.steps;
     run_.time = simulation_.time();
@@ -210,6 +213,7 @@ class Runner {
   const RunOptions& options_;
   Run& run_;
   Recorder recorder_;
+  JointWatch joints_;
   std::optional<CommandPlayer> commands_;
   std::optional<RestWatch> rest_;
 };

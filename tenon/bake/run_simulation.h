@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "tenon/bake/commands/commands.h"
+#include "tenon/bake/joint_watch.h"
 #include "tenon/bake/rest.h"
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"
@@ -33,8 +35,9 @@ struct Run {
   engines::Energy initial_energy;
   engines::Energy final_energy;
   bool interrupted = false;
-  std::optional<double> rest_since;  ///< [s]; everything rested from then to the end
-  std::optional<Error> failure;      ///< why the run ended early: unstable, for example
+  std::optional<double> rest_since;        ///< [s]; everything rested from then to the end
+  std::vector<JointFault> joint_faults{};  ///< of a run that did not fail
+  std::optional<Error> failure;            ///< why the run ended early: unstable, for example
 };
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two

@@ -142,5 +142,96 @@ class EnergyFromNowhere(unittest.TestCase):
                     self.assertRegex(found["message"], r"unstable at [\d.e-]+ s")
 
 
+# A finger of 20 g on a drive that is stiff, strong and far from its target: for steps of 2 ms only
+# an integrator that takes positions implicitly holds it. The tip starts outside of its limit.
+FINGER = """#usda 1.0
+(
+    defaultPrim = "Robot"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "Robot" (prepend apiSchemas = ["PhysicsArticulationRootAPI"])
+{
+    def PhysicsScene "Scene" {}
+    def Xform "hand" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 5
+        float3 physics:diagonalInertia = (0.01, 0.01, 0.01)
+    }
+    def Xform "finger" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 0.02
+        point3f physics:centerOfMass = (0.02, 0, 0)
+        float3 physics:diagonalInertia = (1e-6, 3e-6, 3e-6)
+    }
+    def PhysicsFixedJoint "base" { rel physics:body1 = </Robot/hand>
+    }
+    def PhysicsRevoluteJoint "knuckle" (prepend apiSchemas = ["PhysicsDriveAPI:angular"])
+    {
+        rel physics:body0 = </Robot/hand>
+        rel physics:body1 = </Robot/finger>
+        uniform token physics:axis = "Y"
+        %s
+        float drive:angular:physics:stiffness = %s
+        float drive:angular:physics:damping = %s
+        float drive:angular:physics:maxForce = 1.4
+        float drive:angular:physics:targetPosition = %s
+    }
+}
+"""
+
+
+class Joints(unittest.TestCase):
+    """A joint that shakes, or ends outside of its limits, is told on every engine."""
+
+    def simulate(self, scene, engine, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "finger.usda")
+            path.write_text(scene)
+            if "--duration" not in words:
+                words += ("--duration", "1")
+            return json.loads(run("sim", path, "--engine", engine, "--json", *words).stdout)
+
+    def told(self, answer):
+        return {d["rule"]: d["prim"] for d in answer["diagnostics"]}
+
+    def test_a_drive_that_holds_is_silent(self):
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                answer = self.simulate(FINGER % ("", 5.24, 0.17, 0), engine)
+                [position] = answer["joints"]["/Robot/knuckle"]["position"]
+                self.assertAlmostEqual(position, 0, delta=0.5)
+                self.assertFalse({"sim.joint-shakes", "sim.beyond-limit"} & set(self.told(answer)))
+
+    def test_a_shaking_joint_is_told_and_so_is_the_integrator(self):
+        scene = FINGER % ("", 5.24, 0.17, 20)
+        told = self.told(self.simulate(scene, "mujoco"))
+        self.assertEqual(told["mujoco.integrator"], "/Robot/knuckle")
+        answer = self.simulate(scene, "mujoco", "--integrator", "implicitfast")
+        told = self.told(answer)
+        self.assertNotIn("mujoco.integrator", told)  # the user's choice wins
+        if not answer["unstable"]:
+            self.assertEqual(told["sim.joint-shakes"], "/Robot/knuckle")
+
+    def test_a_joint_outside_of_its_limits_is_told(self):
+        limits = ("float physics:lowerLimit = -10\n        float physics:upperLimit = 10\n"
+                  "        float state:angular:physics:position = 60")
+        drive = '"PhysicsDriveAPI:angular"'
+        scene = (FINGER % (limits, 5.24, 0.17, 60)).replace(
+            drive, drive + ', "PhysicsJointStateAPI:angular"')
+        outside = 0
+        for engine in ENGINES:
+            for duration in ("0.004", "1"):
+                with self.subTest(engine=engine, duration=duration):
+                    answer = self.simulate(scene, engine, "--duration", duration)
+                    if answer["unstable"]:
+                        continue
+                    [position] = answer["joints"]["/Robot/knuckle"]["position"]
+                    is_outside = abs(position) > 10 + 2 + 0.02 * 20
+                    outside += is_outside
+                    self.assertEqual("sim.beyond-limit" in self.told(answer), is_outside)
+        self.assertGreater(outside, 0)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

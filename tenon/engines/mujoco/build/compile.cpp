@@ -10,16 +10,20 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/start_coordinates.h"
 
 namespace tenon::engines::mujoco {
 namespace {
 
 constexpr double kStiffDrive =
     0.5;  // stiffness dt^2 / inertia above which the step must be implicit
+constexpr double kFarInAStep = 0.02;  // [rad or m] with the largest force
 
 Error rejected(mjSpec* spec) {
   const char* words = mjs_getError(spec);
@@ -233,6 +237,55 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
   }
 }
 
+/// Whether steps that are implicit in velocity alone are too coarse for a drive: its spring is
+/// stiff even with its damper, or it begins at its largest force, where the damper does not act,
+/// and a step with that goes far.
+bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
+  const scene::Joint& joint = build.scene.joints[map.joint];
+  const scene::Drive& drive = joint.drives[map.drive];
+  const double step = build.time_step;
+  const double per_inertia = drive.acceleration ? 1 : result.model->dof_invweight0[map.dof];
+  const double spring = drive.stiffness * step * step * per_inertia;
+  if (spring > kStiffDrive * (1 + drive.damping * step * per_inertia)) {
+    return true;
+  }
+  if (!(spring > kStiffDrive) || !(drive.max_force * step * step * per_inertia > kFarInAStep)) {
+    return false;
+  }
+  Diagnostics silent;
+  const scene::JointDofs& dofs = result.joints[map.joint].dofs;
+  const std::vector<double> start = start_coordinates(build.scene, joint, dofs, silent);
+  for (std::size_t i = 0; i < dofs.free.size() && i < start.size(); ++i) {
+    if (dofs.free[i].dof == drive.dof) {
+      return drive.stiffness * std::fabs(drive.target_position - start[i]) > drive.max_force;
+    }
+  }
+  return false;
+}
+
+/// The first joint with a drive or a spring that is stiff against its inertia and the step.
+std::optional<scene::Index> stiff_joint(const Build& build, const Model& result) {
+  const mjModel& m = *result.model;
+  for (const DriveMap& map : result.drives) {
+    if (map.actuator >= 0 && is_stiff(build, result, map)) {
+      return map.joint;
+    }
+  }
+  const double squared_step = build.time_step * build.time_step;
+  for (scene::Index j = 0; j < result.joints.size(); ++j) {
+    std::vector<int> dofs = result.joints[j].dof;
+    if (result.joints[j].ball_dof >= 0) {
+      dofs.push_back(result.joints[j].ball_dof);
+    }
+    for (const int dof : dofs) {
+      if (m.jnt_stiffness[m.dof_jntid[dof]] * squared_step * m.dof_invweight0[dof] > kStiffDrive) {
+        return j;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 // Implicit in velocity is enough for damping; drives that are stiff against their inertia need the
 // step that is implicit in position too.
 void choose_integrator(const Build& build, Model& result) {
@@ -242,26 +295,22 @@ void choose_integrator(const Build& build, Model& result) {
     return;
   }
   const auto& settings = build.scene.scenes.front().parts.mujoco;
-  if (settings && std::any_of(settings->begin(), settings->end(), [](const auto& setting) {
-        return setting.name == "option:integrator";
-      })) {
-    return;  // as the asset asks
+  const bool authored = settings && std::any_of(settings->begin(), settings->end(), [](auto& each) {
+                          return each.name == "option:integrator";
+                        });
+  if (authored || build.methods.integrator != Integrator::Default) {
+    return;  // as the asset or the user asks
   }
-  const double squared_step = build.time_step * build.time_step;
-  for (const DriveMap& map : result.drives) {
-    if (map.actuator < 0) {
-      continue;
-    }
-    const scene::Drive& drive = build.scene.joints[map.joint].drives[map.drive];
-    const double per_inertia = drive.acceleration ? 1 : m.dof_invweight0[map.dof];
-    if (drive.stiffness * squared_step * per_inertia > kStiffDrive) {
-      m.opt.integrator = mjINT_DISCRETE;
-    }
-  }
-  for (int i = 0; i < m.njnt; ++i) {
-    if (m.jnt_stiffness[i] * squared_step * m.dof_invweight0[m.jnt_dofadr[i]] > kStiffDrive) {
-      m.opt.integrator = mjINT_DISCRETE;
-    }
+  if (const std::optional<scene::Index> stiff = stiff_joint(build, result)) {
+    m.opt.integrator = mjINT_DISCRETE;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the drive or spring is stiff for steps of %.4g s; MuJoCo's integrator discrete "
+                  "is used, which takes positions implicitly, too",
+                  build.time_step);
+    build.diagnostics.add({Severity::Info, "mujoco.integrator", text,
+                           build.scene.joints[*stiff].path.str(), "",
+                           "--integrator euler, implicitfast or implicit wins"});
   }
 }
 
