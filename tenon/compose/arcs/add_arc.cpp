@@ -46,7 +46,7 @@ bool nested(const NodeGraph& graph, const Site& a, const Site& b) {
   if (a.layer_stack != b.layer_stack) {
     return false;
   }
-  const auto [low, high] = std::minmax(a.path.depth(), b.path.depth());
+  const auto [low, high] = std::minmax({a.path.depth(), b.path.depth()});
   graph.count(kPathUnits + high - low);
   return a.path.has_prefix(b.path) || b.path.has_prefix(a.path);
 }
