@@ -37,17 +37,16 @@ bool is_implied_class(ArcKind kind, NodeId parent, NodeId origin) {
   return is_class_based(kind) && parent != origin;
 }
 
-constexpr std::size_t kPathUnits = 8;  // of looking at the paths of two sites
+constexpr std::size_t kElementsForUnit = 8;  // of a path that are gone up
 
-/// Whether one site is at or below the other. Where thousands of nodes are looked at, their paths
-/// are all over the memory, which takes as long as several visits.
+/// Whether one site is at or below the other.
 bool nested(const NodeGraph& graph, const Site& a, const Site& b) {
   graph.count(1);
   if (a.layer_stack != b.layer_stack) {
     return false;
   }
   const auto [low, high] = std::minmax({a.path.depth(), b.path.depth()});
-  graph.count(kPathUnits + high - low);
+  graph.count((high - low) / kElementsForUnit);
   return a.path.has_prefix(b.path) || b.path.has_prefix(a.path);
 }
 
