@@ -164,10 +164,9 @@ void EnergyBound::begin(const Simulation& simulation, const PhysicsScene& scene,
 
 Result<void> EnergyBound::end(const Simulation& simulation, const PhysicsScene& scene,
                               const Steering& steering, std::string_view rule) {
-  // Of the first steps more often: what begins badly explodes there.
+  // Not in the first steps: there couplings and limits that are not met pull bodies together.
   ++steps_;
-  const bool early = steps_ < between_ && (steps_ & (steps_ - 1)) == 0;
-  if (fresh_ || !scene.bounds_tracks.empty() || (!early && steps_ % between_ != 0)) {
+  if (fresh_ || !scene.bounds_tracks.empty() || steps_ % between_ != 0) {
     return {};
   }
   look(simulation, scene, steering, static_cast<double>(steps_ - looked_) * time_step_);

@@ -54,7 +54,6 @@ TEST(PhysxVendorSettings, EachActsIsNamedOrIsHarmless) {
             "PhysxParticleSystem xformOpOrder\n"
             "PhysxRigidBodyAPI physxRigidBody:enableCCD\n"
             "PhysxRigidBodyAPI physxRigidBody:enableSpeculativeCCD\n"
-            "PhysxRigidBodyAPI physxRigidBody:maxDepenetrationVelocity\n"
             "PhysxRigidBodyAPI physxRigidBody:sleepThreshold\n"
             "PhysxRigidBodyAPI physxRigidBody:stabilizationThreshold\n"
             "PhysxSceneAPI physxScene:bounceThreshold\n"

@@ -237,19 +237,27 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
   }
 }
 
+bool has_mimics(const scene::PhysicsScene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [](const scene::Joint& joint) { return !joint.mimics.empty(); });
+}
+
 /// Whether steps that are implicit in velocity alone are too coarse for a drive: its spring is
 /// stiff even with its damper, or it begins at its largest force, where the damper does not act,
-/// and a step with that goes far.
+/// and a step with that goes far. Followers of mimics lag behind less with the other steps, too.
 bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
   const scene::Joint& joint = build.scene.joints[map.joint];
   const scene::Drive& drive = joint.drives[map.drive];
   const double step = build.time_step;
   const double per_inertia = drive.acceleration ? 1 : result.model->dof_invweight0[map.dof];
   const double spring = drive.stiffness * step * step * per_inertia;
-  if (spring > kStiffDrive * (1 + drive.damping * step * per_inertia)) {
+  if (!(spring > kStiffDrive)) {
+    return false;
+  }
+  if (has_mimics(build.scene) || spring > kStiffDrive * (1 + drive.damping * step * per_inertia)) {
     return true;
   }
-  if (!(spring > kStiffDrive) || !(drive.max_force * step * step * per_inertia > kFarInAStep)) {
+  if (!(drive.max_force * step * step * per_inertia > kFarInAStep)) {
     return false;
   }
   Diagnostics silent;
