@@ -68,7 +68,7 @@ TEST(PhysxVendorSettings, EachActsIsNamedOrIsHarmless) {
             "PhysxSceneAPI physxScene:maxVelocityIterationCount\n"
             "PhysxSceneAPI physxScene:minPositionIterationCount\n"
             "TetrahedralMesh xformOpOrder\n");
-  EXPECT_EQ(tally.physx_runs.size(), 74u);
+  EXPECT_EQ(tally.physx_runs.size(), 75u);
 }
 
 }  // namespace
