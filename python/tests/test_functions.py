@@ -32,16 +32,17 @@ def printed(*arguments):
 class Answers(support.FilesTestCase):
     def test_answers_are_those_of_the_program(self):
         stage = tenon.open(support.HAND)
-        self.assertEqual(tenon.info(support.HAND), printed("info", support.HAND))
-        self.assertEqual({"prims": stage.tree()}, printed("tree", support.HAND))
+        hand = os.path.relpath(support.HAND)  # the program prints paths as they are given
+        self.assertEqual(tenon.info(support.HAND), printed("info", hand))
+        self.assertEqual({"prims": stage.tree()}, printed("tree", hand))
         for place in ("/inspire_hand/Geometry/right_base_link",
                       "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit"):
             if place.partition(".")[0] not in stage:
                 place = stage.physics().bodies[0].path
             self.assertEqual(tenon.explain(support.HAND, place),
-                             printed("explain", support.HAND, place))
+                             printed("explain", hand, place))
             self.assertEqual(tenon.where(support.HAND, place, variants=True),
-                             printed("where", support.HAND, place, "--variants"))
+                             printed("where", hand, place, "--variants"))
         masses = {row["path"]: row["resolved"]["mass"] for row in stage.masses()}
         self.assertEqual(masses, {body.path: body.mass for body in stage.physics().bodies})
         self.assertEqual(len(stage.kinematic_tree()["links"]), len(masses))
