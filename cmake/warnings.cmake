@@ -2,6 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Flags of every target of this project. -ffp-contract=off: equal bytes on every machine.
 add_library(tenon_flags INTERFACE)
+# A newer GCC than that of continuous integration (Debian 12) warns of more; nobody's `make test` is
+# to fail for that.
+set(tenon_werror ${TENON_WERROR})
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  set(tenon_werror OFF)
+endif()
 target_compile_options(
   tenon_flags
   INTERFACE -ffp-contract=off
@@ -14,7 +20,7 @@ target_compile_options(
             # Clang counts changes of sign to -Wconversion, and warns of what GCC's own headers use.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
-            $<$<BOOL:${TENON_WERROR}>:-Werror>
+            $<$<BOOL:${tenon_werror}>:-Werror>
             # GCC collects garbage once it holds 1.2 GB, which no source needs: from 256 MB on, that
             # takes a tenth of its time.
             $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=600000>)

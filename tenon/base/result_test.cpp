@@ -40,7 +40,8 @@ TEST(Result, IsCopiedAndAssignedBothWays) {
   EXPECT_EQ(result.error().message(), "no such thing");
   result = copy;
   EXPECT_EQ(result.value(), "text");
-  result = std::move(result);  // NOLINT(clang-diagnostic-self-move)
+  Result<std::string>& itself = result;
+  result = std::move(itself);
   EXPECT_EQ(result.value(), "text");
 }
 
