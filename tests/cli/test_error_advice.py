@@ -28,10 +28,10 @@ TYPED, BY_HAND = HERE / "error_advice.txt", HERE / "error_advice_by_hand.txt"
 BY_HAND_AT_MOST = 21
 # What a sentence of the help is an argument of.
 OF_HELP = re.compile(r"add_option|add_flag|\.option\(|description\(|footer\(|\.choice\(")
-# Sentences that tell what there is, and advise nothing.
 # Where a printed command ends and its sentence goes on.
 PRINTED_END = re.compile(r"[;`)\n]|, | \[|  | (?:or|and|to|tells?|lists|says|has|shows|unpacks) |$")
 OF_MESSAGE = re.compile(r"Error\(ErrorCode::\w+,\s*$")
+# Files whose sentences tell what there is, and advise nothing.
 NO_ADVICE = ("cli/text/completion.cpp", "cli/program.cpp", "tenon/live/requests.cpp",
              "tenon/check/rules.cpp", "tenon/asset/authoring/kinds.cpp",
              "tenon/settings/settings_keys.cpp", "cli/text/settings_text.cpp")
