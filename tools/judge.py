@@ -149,6 +149,10 @@ def judgements():
                                   "build/release/bin/tenon", "docs/beside-other-engines.md"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/engines_beside/requirements-ovphysx.txt")
+    yield Judgement("closed_forms", ["{python}", "-B", "tests/closed_forms/closed_forms.py",
+                                     "build/release/bin/tenon", "docs/closed-forms.md",
+                                     "tests/closed_forms/known_misses.txt"],
+                    "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("robots_per_engine", ["{python}", "-B",
                                           "tests/engines_beside/robots_per_engine.py", ".",
                                           "build/release/bin/tenon", "docs/robots-per-engine.md"],
