@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The joints of the scene's own forest are held tree by tree (TreeHolder), except those that may
-// break, which end a tree there, cones, which Jolt's constraints bound, and trees that are too deep
-// for it: chains of hundreds of links, whose inertia has an entry for each pair of links.
+// The joints of the scene's own forest are held tree by tree (TreeHolder), except cones, which
+// Jolt's constraints bound, and trees that are too deep for it: chains of hundreds of links, whose
+// inertia has an entry for each pair of links. A joint that broke acts no longer, and ends a tree.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -36,7 +36,7 @@ std::optional<Index> joint_above(const Build& build, Index body) {
     return std::nullopt;
   }
   const Joint& source = build.scene.joints[*joint];
-  const bool fits = build.model.joints[*joint].acts && !can_break(source) && !has_cone(source);
+  const bool fits = build.model.joints[*joint].acts && !has_cone(source);
   return fits ? joint : std::nullopt;
 }
 

@@ -44,6 +44,14 @@ void add_joint_energy(const scene::Joint& joint, const JointState& state, Energy
   }
 }
 
+Wrench read_holder(const JointMap& joint, double time_step) {
+  if (joint.measured == nullptr) {
+    return {};
+  }
+  const Wrench impulse = joint.measured->impulse();
+  return {impulse.force * (1 / time_step), impulse.torque * (1 / time_step)};
+}
+
 }  // namespace
 
 BodyState read_body_state(const Model& model, Index body) {
@@ -96,14 +104,6 @@ Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
     }
   }
   return energy;
-}
-
-Wrench read_holder(const JointMap& joint, double time_step) {
-  if (joint.measured == nullptr) {
-    return {};
-  }
-  const Wrench impulse = joint.measured->impulse();
-  return {impulse.force * (1 / time_step), impulse.torque * (1 / time_step)};
 }
 
 Wrench read_reaction(const Model& model, Index joint) {

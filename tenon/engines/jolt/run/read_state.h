@@ -22,10 +22,9 @@ Vec3d read_center_of_mass(const Model& model, scene::Index body);
 Energy read_energy(const scene::PhysicsScene& scene, const Model& model,
                    std::span<const Vec3d> gravity);
 
-/// What holds a joint together has exerted on body 1 during the last step, about the joint's point,
-/// world axes; of joints that are measured.
-Wrench read_holder(const JointMap& joint, double time_step);
-/// The same with what acts along its coordinates.
+/// What a joint has exerted on body 1 during the last step, about the joint's point, world axes:
+/// what holds it together and what acts along its coordinates. Of joints that may break, and of all
+/// with Outputs::reactions.
 Wrench read_reaction(const Model& model, scene::Index joint);
 
 }  // namespace tenon::engines::jolt
