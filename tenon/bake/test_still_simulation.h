@@ -51,6 +51,7 @@ class StillSimulation : public engines::Simulation {
   std::size_t contact_count() const override { return 0; }
   std::size_t dof_count() const override { return 0; }
   const std::vector<engines::NotMapped>& not_mapped() const override { return none_; }
+  std::vector<scene::VendorSetting> settings() const override { return {}; }
   const std::vector<engines::Event>& events() const override { return no_events_; }
   Vec3d center_of_mass(scene::Index) const override { return {}; }
   Vec3d gravity(scene::Index) const override { return {}; }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tenon/engines/applied_forces.h"
 #include "tenon/engines/drive_values.h"
 #include "tenon/scene/joint_dofs.h"
 
@@ -255,7 +256,7 @@ void EnergyBound::set_baseline(const Simulation& simulation, const PhysicsScene&
 void EnergyBound::look(const Simulation& simulation, const PhysicsScene& scene,
                        const Steering& steering, double span) {
   look_at_drives(simulation, scene, steering, span);
-  look_at_forces(simulation, steering, span);
+  look_at_forces(simulation, scene, steering, span);
   look_at_moved(simulation, scene, span);
 }
 
@@ -296,8 +297,12 @@ void EnergyBound::look_at_drives(const Simulation& simulation, const PhysicsScen
   }
 }
 
-void EnergyBound::look_at_forces(const Simulation& simulation, const Steering& steering,
-                                 double span) {
+void EnergyBound::look_at_forces(const Simulation& simulation, const PhysicsScene& scene,
+                                 const Steering& steering, double span) {
+  const auto give = [&](const Wrench& wrench, const BodyState& state) {
+    given_ += span * (length(wrench.force) * length(state.linear_velocity) +
+                      length(wrench.torque) * length(state.angular_velocity));
+  };
   for (const auto& [joint, efforts] : steering.efforts) {
     const JointState state = simulation.joint_state(joint);
     for (std::size_t i = 0; i < efforts.size() && i < state.velocity.size(); ++i) {
@@ -305,9 +310,13 @@ void EnergyBound::look_at_forces(const Simulation& simulation, const Steering& s
     }
   }
   for (const auto& [body, wrench] : steering.wrenches) {
-    const BodyState state = simulation.body_state(body);
-    given_ += span * (length(wrench.force) * length(state.linear_velocity) +
-                      length(wrench.torque) * length(state.angular_velocity));
+    give(wrench, simulation.body_state(body));
+  }
+  for (Index b = 0; b < scene.bodies.size(); ++b) {
+    if (!scene.bodies[b].settings.forces.empty()) {
+      const BodyState state = simulation.body_state(b);
+      give(constant_wrench(scene.bodies[b], state.pose), state);
+    }
   }
 }
 

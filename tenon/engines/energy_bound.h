@@ -49,7 +49,8 @@ class EnergyBound {
             const Steering& steering, double span);
   void look_at_drives(const Simulation& simulation, const scene::PhysicsScene& scene,
                       const Steering& steering, double span);
-  void look_at_forces(const Simulation& simulation, const Steering& steering, double span);
+  void look_at_forces(const Simulation& simulation, const scene::PhysicsScene& scene,
+                      const Steering& steering, double span);
   void look_at_moved(const Simulation& simulation, const scene::PhysicsScene& scene, double span);
 
   double time_step_ = 0;

@@ -45,6 +45,9 @@ class Simulation {  // all functions inline: derived classes need no type inform
   /// Degrees of freedom that the engine simulates.
   virtual std::size_t dof_count() const = 0;
   virtual const std::vector<NotMapped>& not_mapped() const = 0;
+  /// What steps are made with: integrator, solver, iterations, distances and thresholds [m, s,
+  /// m/s], each a number or a word, under the names of docs/simulation.md.
+  virtual std::vector<scene::VendorSetting> settings() const = 0;
   /// Joints that broke (S-93) and fast bodies that passed through others so far, in time order.
   virtual const std::vector<Event>& events() const = 0;
   /// The centre of mass of a body, world [m].

@@ -87,6 +87,7 @@ class FreeBodies final : public Simulation {
   std::size_t contact_count() const override { return 0; }
   std::size_t dof_count() const override { return 6 * scene_.bodies.size(); }
   const std::vector<NotMapped>& not_mapped() const override { return not_mapped_; }
+  std::vector<scene::VendorSetting> settings() const override { return {}; }
   const std::vector<Event>& events() const override { return events_; }
   Vec3d center_of_mass(scene::Index body) const override { return now_.bodies[body].pose.position; }
   bool can(Ability ability) const override {

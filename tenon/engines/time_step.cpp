@@ -36,4 +36,51 @@ double choose_time_step(const scene::PhysicsScene& scene, const SimulationOption
   return asked / std::max(parts, 1.0);
 }
 
+void report_spring_damping(const scene::PhysicsScene& scene, double time_step,
+                           std::string_view engine, std::string_view rule,
+                           Diagnostics& diagnostics) {
+  struct Spring {
+    const scene::Joint* joint = nullptr;
+    const scene::Drive* drive = nullptr;
+    double added = 0;
+  };
+  std::vector<Spring> springs;
+  for (const scene::Joint& joint : scene.joints) {
+    for (const scene::Drive& drive : joint.drives) {
+      const double added = drive.stiffness * time_step;
+      if (joint.enabled && drive.max_force > 0 && added > drive.damping) {
+        springs.push_back({&joint, &drive, added});
+      }
+    }
+  }
+  const auto worst =
+      std::max_element(springs.begin(), springs.end(),
+                       [](const Spring& a, const Spring& b) { return a.added < b.added; });
+  if (worst == springs.end()) {
+    return;
+  }
+  const bool turns = is_angular(worst->drive->dof);
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "drives of %s pull to where a step of %.3g s ends, which damps this spring like "
+                "%.3g more than the authored %.3g %s",
+                std::string(engine).c_str(), time_step, worst->added, worst->drive->damping,
+                worst->drive->acceleration ? "1/s"
+                : turns                    ? "N m s/rad"
+                                           : "N s/m");
+  Message message = text;
+  for (const Spring& spring : springs) {
+    if (spring.joint != worst->joint) {
+      message.about(spring.joint->path, RelatedRole::Joint);
+    }
+  }
+  Diagnostic finding;
+  finding.severity = Severity::Info;
+  finding.rule = rule;
+  finding.prim = worst->joint->path.str();
+  finding.say(message);
+  finding.fix = "give a smaller --dt, or author damping";
+  diagnostics.add(std::move(finding));
+}
+
 }  // namespace tenon::engines

@@ -15,4 +15,11 @@ namespace tenon::engines {
 double choose_time_step(const scene::PhysicsScene& scene, const SimulationOptions& options,
                         std::string_view engine, std::string_view rule, Diagnostics& diagnostics);
 
+/// On engines whose drives pull to where the step ends: an info about the drive whose spring k the
+/// step damps most beyond what is authored, where k dt is more than its own damping. Arguments as
+/// above; the others are related.
+void report_spring_damping(const scene::PhysicsScene& scene, double time_step,
+                           std::string_view engine, std::string_view rule,
+                           Diagnostics& diagnostics);
+
 }  // namespace tenon::engines

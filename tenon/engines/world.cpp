@@ -48,6 +48,7 @@ Energy World::energy() const { return simulation_->energy(); }
 std::size_t World::contact_count() const { return simulation_->contact_count(); }
 std::size_t World::dof_count() const { return simulation_->dof_count(); }
 const std::vector<NotMapped>& World::not_mapped() const { return simulation_->not_mapped(); }
+std::vector<scene::VendorSetting> World::settings() const { return simulation_->settings(); }
 const std::vector<Event>& World::events() const { return simulation_->events(); }
 bool World::can(Ability ability) const { return simulation_->can(ability); }
 EngineObjects World::engine_objects() const { return simulation_->engine_objects(); }

@@ -42,6 +42,7 @@ class World {
   std::size_t contact_count() const;
   std::size_t dof_count() const;
   const std::vector<NotMapped>& not_mapped() const;
+  std::vector<scene::VendorSetting> settings() const;
   const std::vector<Event>& events() const;
   bool can(Ability ability) const;
   EngineObjects engine_objects() const;

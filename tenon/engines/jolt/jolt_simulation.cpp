@@ -69,6 +69,7 @@ Result<std::unique_ptr<JoltSimulation>> JoltSimulation::make(const PhysicsScene&
   open_jolt();
   std::unique_ptr<JoltSimulation> made(new JoltSimulation(scene, options));
   TENON_CHECK(made->begin(time_step, diagnostics));
+  report_spring_damping(scene, time_step, "Jolt", "jolt.spring-damping", diagnostics);
   return made;
 }
 
@@ -81,6 +82,7 @@ Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
   TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
   inputs_ = StepInputs(*scene_);
   energy_bound_ = EnergyBound(model_.time_step);
+  passages_ = {};
   slow_turns_ = SlowTurns(model_);
   breakable_.clear();
   for (Index j = 0; j < scene_->joints.size(); ++j) {
@@ -99,10 +101,11 @@ Result<void> JoltSimulation::step() {
     keep_velocities();
   }
   energy_bound_.begin(*this, *scene_, steering_);
+  passages_.begin(*this, *scene_);
   inputs_.before_step(model_, steering_, time());
   TENON_CHECK(advance());
   slow_turns_.after_step(model_);
-  if (options_.outputs.reactions) {
+  if (options_.outputs.reactions || !breakable_.empty()) {
     for (const JPH::Ref<CoordinateLaw>& law : model_.laws) {
       law->note_impulse();
     }
@@ -110,6 +113,9 @@ Result<void> JoltSimulation::step() {
   ++steps_;
   TENON_CHECK(check_step());
   TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "jolt.unstable"));
+  for (Event& passage : passages_.end(*this, *scene_)) {
+    events_.push_back(std::move(passage));
+  }
   if (options_.outputs.contacts) {
     contacts_ = read_contacts(*scene_, model_);
   }
@@ -170,7 +176,7 @@ Result<void> JoltSimulation::break_joints() {
     if (!model_.joints[j].acts) {
       continue;
     }
-    const Wrench load = read_holder(model_.joints[j], model_.time_step);
+    const Wrench load = reaction_of(j);
     const double force = length(load.force);
     const double torque = length(load.torque);
     if (force <= joint.break_force && torque <= joint.break_torque) {
@@ -206,6 +212,7 @@ Result<void> JoltSimulation::rebuild() {
   TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
   inputs_ = StepInputs(*scene_);
   energy_bound_ = EnergyBound(model_.time_step);
+  passages_ = {};
   slow_turns_ = SlowTurns(model_);
   apply_steering();
   return {};
@@ -238,6 +245,20 @@ std::size_t JoltSimulation::contact_count() const {
     count += system.listener->touching();
   }
   return count;
+}
+
+std::vector<scene::VendorSetting> JoltSimulation::settings() const {
+  const JPH::PhysicsSettings& made = model_.systems.front().system->GetPhysicsSettings();
+  const auto number = [](const char* name, auto value) {
+    return scene::VendorSetting{name, {static_cast<double>(value)}, ""};
+  };
+  return {{"integrator", {}, "euler"},
+          {"solver", {}, "pgs"},
+          number("velocityIterations", made.mNumVelocitySteps),
+          number("positionIterations", made.mNumPositionSteps),
+          number("bounceThreshold", made.mMinVelocityForRestitution),
+          number("contactDistance", made.mSpeculativeContactDistance),
+          number("penetrationSlop", made.mPenetrationSlop)};
 }
 
 std::size_t JoltSimulation::dof_count() const {

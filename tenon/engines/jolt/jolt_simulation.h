@@ -11,6 +11,7 @@
 #include "tenon/engines/jolt/model.h"
 #include "tenon/engines/jolt/run/slow_turns.h"
 #include "tenon/engines/jolt/run/step_inputs.h"
+#include "tenon/engines/passage_watch.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/timeline/timeline.h"
@@ -34,6 +35,7 @@ class JoltSimulation final : public Simulation {
   std::size_t contact_count() const override;
   std::size_t dof_count() const override;
   const std::vector<NotMapped>& not_mapped() const override { return model_.not_mapped; }
+  std::vector<scene::VendorSetting> settings() const override;
   const std::vector<Event>& events() const override { return events_; }
   Vec3d center_of_mass(scene::Index body) const override;
   bool can(Ability ability) const override;
@@ -69,6 +71,7 @@ class JoltSimulation final : public Simulation {
   Result<void> check_step() const;
   void take_passages();
   Result<void> break_joints();
+  Wrench reaction_of(scene::Index joint) const;
   void keep_velocities();
   Result<void> write_parameter(const ParameterKey& key, double value);
   Result<void> write_joint_parameter(const ParameterKey& key, double value);
@@ -88,6 +91,7 @@ class JoltSimulation final : public Simulation {
   Model model_;
   StepInputs inputs_;
   EnergyBound energy_bound_;
+  PassageWatch passages_;
   SlowTurns slow_turns_;
   Steering steering_;
   std::vector<Event> events_;

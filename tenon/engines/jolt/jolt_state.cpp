@@ -37,6 +37,8 @@ void JoltSimulation::take(JoltSimulation& other) {
   scene_ = other.scene_;
   inputs_ = std::move(other.inputs_);
   slow_turns_ = std::move(other.slow_turns_);
+  energy_bound_ = std::move(other.energy_bound_);
+  passages_ = std::move(other.passages_);
   steering_ = std::move(other.steering_);
   events_ = std::move(other.events_);
   contacts_ = std::move(other.contacts_);

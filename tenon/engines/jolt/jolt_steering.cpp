@@ -55,6 +55,7 @@ void JoltSimulation::set_from_outside(Input input) {
   input.step = steps_;
   log_.add(input);
   energy_bound_.note(input);
+  passages_.note(input);
 }
 
 Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const DriveTarget& target) {
@@ -300,6 +301,10 @@ Result<Wrench> JoltSimulation::joint_reaction(Index joint) const {
     return output_off("reactions");
   }
   TENON_CHECK(check_joint(*scene_, joint));
+  return reaction_of(joint);
+}
+
+Wrench JoltSimulation::reaction_of(Index joint) const {
   Wrench reaction = read_reaction(model_, joint);
   const auto set = steering_.efforts.find(joint);
   if (set != steering_.efforts.end() && steps_ > 0 && model_.joints[joint].acts) {

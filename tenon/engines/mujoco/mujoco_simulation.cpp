@@ -14,12 +14,14 @@
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/option_fields.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/advance.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
 #include "tenon/engines/mujoco/run/read_state.h"
+#include "tenon/engines/passage_watch.h"
 #include "tenon/engines/scene_timeline.h"
 
 namespace tenon::engines::mujoco {
@@ -225,12 +227,7 @@ void MujocoSimulation::note_broken(const Restart& restart) {
 // Computed quantities are of the beginning of the step, coordinates and velocities of its end.
 Result<void> MujocoSimulation::watch() {
   for (const PassageWatch::Passage& passage : passages_.look(model_)) {
-    const Path& other = scene_->colliders[passage.collider].path;
-    char how[64];
-    std::snprintf(how, sizeof how, " between two steps, in one of %.3g m", passage.step);
-    events_.push_back({time(), scene_->bodies[passage.body].path,
-                       "passed through <" + other.str() + ">" + how, EventKind::PassedThrough,
-                       other});
+    events_.push_back(passage_event(*scene_, time(), passage.body, passage.collider, passage.step));
   }
   const std::optional<EnergyWatch::Growth> growth = energy_watch_.end(model_);
   if (!growth) {
@@ -257,6 +254,9 @@ void MujocoSimulation::bring_up_to_date() const {
 
 double MujocoSimulation::time() const { return model_.data->time; }
 double MujocoSimulation::time_step() const { return model_.model->opt.timestep; }
+std::vector<scene::VendorSetting> MujocoSimulation::settings() const {
+  return run_settings(model_.model->opt);
+}
 std::size_t MujocoSimulation::dof_count() const {
   return static_cast<std::size_t>(model_.model->nv);
 }

@@ -47,6 +47,7 @@ class MujocoSimulation final : public Simulation {
   std::size_t contact_count() const override;
   std::size_t dof_count() const override;
   const std::vector<NotMapped>& not_mapped() const override { return start_->maps.not_mapped; }
+  std::vector<scene::VendorSetting> settings() const override;
   const std::vector<Event>& events() const override { return events_; }
   Vec3d center_of_mass(scene::Index body) const override;
   bool can(Ability ability) const override;

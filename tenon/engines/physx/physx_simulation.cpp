@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tenon/engines/physx/build/build.h"
+#include "tenon/engines/physx/build/settings.h"
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/run/follow_frames.h"
 #include "tenon/engines/physx/run/read_state.h"
@@ -67,6 +68,7 @@ Result<std::unique_ptr<PhysxSimulation>> PhysxSimulation::make(const PhysicsScen
       choose_time_step(scene, options, "PhysX", "physx.time-step", diagnostics);
   std::unique_ptr<PhysxSimulation> made(new PhysxSimulation(scene, options));
   TENON_CHECK(made->begin(time_step, diagnostics));
+  report_spring_damping(scene, time_step, "PhysX", "physx.spring-damping", diagnostics);
   return made;
 }
 
@@ -93,6 +95,7 @@ void PhysxSimulation::connect() {
   surfaces_ = std::move(surfaces);
   inputs_ = StepInputs(*scene_);
   energy_bound_ = EnergyBound(model_.time_step);
+  passages_ = {};
   stale_ = true;
 }
 
@@ -106,6 +109,7 @@ Result<void> PhysxSimulation::step() {
     outputs_.begin(*scene_, model_);
   }
   energy_bound_.begin(*this, *scene_, steering_);
+  passages_.begin(*this, *scene_);
   inputs_.before_step(model_, steering_, time());
   advance();
   if (!messages.errors().empty()) {
@@ -113,6 +117,9 @@ Result<void> PhysxSimulation::step() {
   }
   TENON_CHECK(check_step());
   TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "physx.unstable"));
+  for (Event& passage : passages_.end(*this, *scene_)) {
+    events_.push_back(std::move(passage));
+  }
   contacts_ = std::move(told_->contacts);
   if (outputs_.follows_motion()) {
     bring_up_to_date();
@@ -223,6 +230,8 @@ Energy PhysxSimulation::energy() const {
 }
 
 std::size_t PhysxSimulation::contact_count() const { return read_contact_count(model_); }
+
+std::vector<scene::VendorSetting> PhysxSimulation::settings() const { return run_settings(model_); }
 
 std::size_t PhysxSimulation::dof_count() const {
   std::size_t count = 0;

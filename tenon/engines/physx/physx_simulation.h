@@ -8,6 +8,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/energy_bound.h"
 #include "tenon/engines/input_log.h"
+#include "tenon/engines/passage_watch.h"
 #include "tenon/engines/physx/model.h"
 #include "tenon/engines/physx/run/step_events.h"
 #include "tenon/engines/physx/run/step_inputs.h"
@@ -35,6 +36,7 @@ class PhysxSimulation final : public Simulation {
   std::size_t contact_count() const override;
   std::size_t dof_count() const override;
   const std::vector<NotMapped>& not_mapped() const override { return model_.not_mapped; }
+  std::vector<scene::VendorSetting> settings() const override;
   const std::vector<Event>& events() const override { return events_; }
   Vec3d center_of_mass(scene::Index body) const override;
   bool can(Ability ability) const override;
@@ -90,6 +92,7 @@ class PhysxSimulation final : public Simulation {
   Model model_;
   StepInputs inputs_;
   EnergyBound energy_bound_;
+  PassageWatch passages_;
   Steering steering_;
   std::vector<Event> events_;
   std::vector<Contact> contacts_;

@@ -39,6 +39,8 @@ void PhysxSimulation::take(PhysxSimulation& other) {
   timeline_ = std::move(other.timeline_);
   scene_ = other.scene_;
   inputs_ = std::move(other.inputs_);
+  energy_bound_ = std::move(other.energy_bound_);
+  passages_ = std::move(other.passages_);
   steering_ = std::move(other.steering_);
   events_ = std::move(other.events_);
   contacts_ = std::move(other.contacts_);

@@ -39,6 +39,7 @@ void PhysxSimulation::set_from_outside(Input input, double energy_before) {
   input.step = steps_;
   log_.add(input);
   energy_bound_.note(input);
+  passages_.note(input);
   outputs_.add_change(energy_to_compare() - energy_before);
 }
 

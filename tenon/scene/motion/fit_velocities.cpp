@@ -449,9 +449,9 @@ FittedVelocities fit_velocities(const PhysicsScene& scene, const JointForest& fo
 std::vector<BodyState> states_at_start(const PhysicsScene& scene, double time_step) {
   std::vector<BodyState> states;
   for (const Body& body : scene.bodies) {
-    const bool given = body.kinematic;
-    states.push_back({body.pose, given ? Vec3d{} : body.linear_velocity,
-                      given ? Vec3d{} : body.angular_velocity});
+    const bool still = body.kinematic || body.starts_asleep;
+    states.push_back({body.pose, still ? Vec3d{} : body.linear_velocity,
+                      still ? Vec3d{} : body.angular_velocity});
   }
   for (const PoseTrack& track : scene.pose_tracks) {
     if (!track.body || !scene.bodies[*track.body].kinematic || track.times.empty()) {

@@ -43,7 +43,7 @@ FittedVelocities fit_velocities(const PhysicsScene& scene, const JointForest& fo
                                 const std::vector<BodyState>& states, LinkVelocities links);
 
 /// How the bodies are and move at the start; kinematic ones as their samples do in the first
-/// `time_step` seconds. (body_count)
+/// `time_step` seconds, and those that start asleep not at all. (body_count)
 std::vector<BodyState> states_at_start(const PhysicsScene& scene, double time_step);
 
 /// Some body has a velocity or some joint an initial one: without, there is nothing to fit.

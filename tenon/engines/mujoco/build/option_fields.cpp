@@ -244,6 +244,35 @@ class Differences {
 
 }  // namespace
 
+std::vector<scene::VendorSetting> run_settings(const mjOption& option) {
+  constexpr const char* kDiscrete = "discrete";  // no asset can ask for it
+  const auto word = [](std::string name, const auto& words, int number) {
+    const auto at = static_cast<std::size_t>(number);
+    return scene::VendorSetting{std::move(name), {}, at < std::size(words) ? words[at] : kDiscrete};
+  };
+  std::vector<scene::VendorSetting> settings = {
+      word("integrator", kIntegrators, option.integrator),
+      word("solver", kSolvers, option.solver),
+      {"iterations", {static_cast<double>(option.iterations)}, ""},
+      {"tolerance", {option.tolerance}, ""},
+      word("cone", kCones, option.cone),
+      {"impratio", {option.impratio}, ""},
+  };
+  constexpr std::string_view kPrefix = "option:";
+  std::vector<std::string> unnamed;
+  for (scene::VendorSetting& setting : settings_of(option, unnamed)) {
+    if (setting.name.starts_with(kPrefix)) {
+      setting.name.erase(0, kPrefix.size());
+    }
+    const bool known = std::any_of(settings.begin(), settings.end(),
+                                   [&](const auto& s) { return s.name == setting.name; });
+    if (!known && setting.name != "flag:autoreset") {  // off in every run
+      settings.push_back(std::move(setting));
+    }
+  }
+  return settings;
+}
+
 std::vector<scene::VendorSetting> settings_of(const mjOption& option,
                                               std::vector<std::string>& unnamed) {
   return Differences(option, unnamed).run();

@@ -3,8 +3,8 @@
 //
 // PhysX 5.1 has no joints that follow others. What comes nearest within an articulation is a fixed
 // tendon: a spring on the sum of coordinates of one tree, solved with the joints themselves; others
-// are constraints (Coupling). Its length is follower -
-// multiplier * leader - offset, and it rests at 0.
+// are constraints (Coupling). Its length is a multiple of follower - multiplier * leader - offset,
+// and it rests at 0.
 #include <algorithm>
 #include <cmath>
 
@@ -30,13 +30,21 @@ double inertia_of(const JointMap& map) {
          map.link_joint->getArmature(map.axis);
 }
 
+/// The coefficient of the follower in the tendon. With a leader's above 1, as of a hinge that turns
+/// many radians for each metre of its slide, a rigid tendon goes beyond what PhysX's floats hold.
+double scale_of(const scene::Mimic& mimic) {
+  return 1 / std::max(1.0, std::fabs(mimic.multiplier));
+}
+
 void set_stiffness(const scene::Mimic& mimic, const JointMap& follower, const JointMap& leader,
                    double count, px::PxArticulationFixedTendon& tendon) {
   double stiffness = kRigidTendon;
   double damping = 0;
   if (mimic.natural_frequency > 0) {
+    const double scale = scale_of(mimic);
     const double inertia =
-        1 / (1 / inertia_of(follower) + mimic.multiplier * mimic.multiplier / inertia_of(leader));
+        1 / (1 / inertia_of(follower) + mimic.multiplier * mimic.multiplier / inertia_of(leader)) /
+        (scale * scale);
     stiffness = inertia * mimic.natural_frequency * mimic.natural_frequency;
     damping = 2 * mimic.damping_ratio * mimic.natural_frequency * inertia;
   }
@@ -78,9 +86,10 @@ void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
     add_coupling(build, index, mimic);
     return;
   }
+  const double scale = scale_of(mimic);
   const TendonShares shares{
-      {&follower.link_joint->getChildArticulationLink(), {1, follower.axis}},
-      {&leader.link_joint->getChildArticulationLink(), {-mimic.multiplier, leader.axis}}};
+      {&follower.link_joint->getChildArticulationLink(), {scale, follower.axis}},
+      {&leader.link_joint->getChildArticulationLink(), {-mimic.multiplier * scale, leader.axis}}};
   const auto [tendon, count] =
       make_fixed_tendon(*build.model.trees[follower.tree].articulation, shares);
   if (tendon == nullptr) {
@@ -88,7 +97,7 @@ void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
                  "PhysX couples coordinates across joints with a coordinate of their own only");
     return;
   }
-  tendon->setOffset(to_px(-mimic.offset));
+  tendon->setOffset(to_px(-mimic.offset * scale));
   tendon->setRestLength(0);
   tendon->setLimitParameters(px::PxArticulationTendonLimit(-PX_MAX_F32, PX_MAX_F32));
   set_stiffness(mimic, follower, leader, count, *tendon);

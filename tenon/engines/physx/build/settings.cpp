@@ -8,6 +8,7 @@
 #include "tenon/engines/physx/build/settings.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace tenon::engines::physx {
@@ -147,6 +148,42 @@ void set_solver(Build& build, Index scene, px::PxSceneDesc& wanted) {
     wanted.flags &= ~px::PxSceneFlags(px::PxSceneFlag::eENABLE_PCM);
   }
   report_solver(build, source, wanted);
+}
+
+std::vector<scene::VendorSetting> run_settings(const Model& model) {
+  const px::PxScene& scene = *model.scenes.front();
+  px::PxU32 positions = 0;
+  px::PxU32 velocities = 0;
+  const auto count = [&](const auto& of) {
+    px::PxU32 own_positions = 0;
+    px::PxU32 own_velocities = 0;
+    of.getSolverIterationCounts(own_positions, own_velocities);
+    positions = std::max(positions, own_positions);
+    velocities = std::max(velocities, own_velocities);
+  };
+  for (Index b = 0; b < model.bodies.size(); ++b) {
+    if (!model.is_link(b)) {
+      count(static_cast<const px::PxRigidDynamic&>(*model.bodies[b]));
+    }
+  }
+  for (const ReducedTree& tree : model.trees) {
+    count(*tree.articulation);
+  }
+  const auto number = [](const char* name, double value) {
+    return scene::VendorSetting{name, {value}, ""};
+  };
+  const px::PxSceneFlags flags = scene.getFlags();
+  constexpr const char* kFriction[] = {"patch", "oneDirectional", "twoDirectional"};
+  const auto friction = static_cast<std::size_t>(scene.getFrictionType());
+  return {{"integrator", {}, "euler"},
+          {"solver", {}, scene.getSolverType() == px::PxSolverType::eTGS ? "tgs" : "pgs"},
+          number("positionIterations", positions),
+          number("velocityIterations", velocities),
+          {"friction", {}, friction < std::size(kFriction) ? kFriction[friction] : "none"},
+          number("bounceThreshold", scene.getBounceThresholdVelocity()),
+          number("frictionOffsetThreshold", scene.getFrictionOffsetThreshold()),
+          number("ccd", flags & px::PxSceneFlag::eENABLE_CCD ? 1 : 0),
+          number("stabilization", flags & px::PxSceneFlag::eENABLE_STABILIZATION ? 1 : 0)};
 }
 
 Iterations iterations_of(const Build& build, Index scene, const Settings& settings) {

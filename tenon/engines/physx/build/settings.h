@@ -19,6 +19,8 @@ std::optional<double> number_of(const Settings& settings, std::string_view name)
 std::string_view word_of(const Settings& settings, std::string_view name);
 
 /// How a scene is solved, and how finely; what the caller asks for wins (Methods).
+/// What the steps of a model are made with (Simulation::settings).
+std::vector<scene::VendorSetting> run_settings(const Model& model);
 void set_solver(Build& build, scene::Index scene, px::PxSceneDesc& wanted);
 
 struct Iterations {

@@ -18,8 +18,20 @@ namespace {
 
 using scene::Index;
 
-bool has_scaled_gravity(const scene::Body& body) {
-  return body.gravity_scale != 0 && body.gravity_scale != 1;
+/// PhysX's own pull is not that of the body: gravity that is scaled, or along an axis that is
+/// locked, which PhysX holds against contacts alone.
+bool has_own_gravity(const scene::Body& body) {
+  const bool scaled = body.gravity_scale != 1;
+  return body.gravity_scale != 0 && (scaled || body.settings.locked_translation != 0);
+}
+
+/// What the body is pulled by beside PhysX's gravity [m/s^2].
+Vec3d missing_gravity(const scene::Body& body, const Vec3d& gravity) {
+  Vec3d wanted = gravity * body.gravity_scale;
+  for (std::size_t i = 0; i < 3; ++i) {
+    wanted[i] = (body.settings.locked_translation >> i & 1) != 0 ? 0 : wanted[i];
+  }
+  return wanted - gravity;
 }
 
 void write_steering(const Steering& steering, Index joint, scene::Joint& source) {
@@ -41,7 +53,7 @@ StepInputs::StepInputs(const scene::PhysicsScene& scene)
       joint_pushes_(scene.joints.size()) {
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     const scene::Body& body = scene.bodies[b];
-    if (!body.kinematic && (has_scaled_gravity(body) || !body.settings.forces.empty())) {
+    if (!body.kinematic && (has_own_gravity(body) || !body.settings.forces.empty())) {
       pushed_.push_back(b);
     }
   }
@@ -126,10 +138,10 @@ void StepInputs::push_bodies(const Model& model, const Steering& steering) {
     if (!body.settings.forces.empty()) {
       apply(model, b, constant_wrench(body, from_px(model.bodies[b]->getGlobalPose())));
     }
-    if (has_scaled_gravity(body)) {
+    if (has_own_gravity(body)) {
       const Vec3d gravity = from_px(model.scenes[body.scene]->getGravity());
       const double mass = model.bodies[b]->getMass();
-      push(model, b, {gravity * (mass * (body.gravity_scale - 1)), {}});
+      push(model, b, {missing_gravity(body, gravity) * mass, {}});
     }
   }
   for (const auto& [body, wrench] : steering.wrenches) {
