@@ -49,6 +49,7 @@ struct ConvertArguments {
   std::string physics;
   bool fix_base = false;
   bool float_base = false;
+  std::string self_collision;
   bool merge_fixed = false;
   bool scene = false;
   bool flat = false;
@@ -63,6 +64,9 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   result.robot.fix_base = options.fix_base;
   result.robot.float_base = options.float_base;
   result.robot.merge_fixed = options.merge_fixed;
+  if (!options.self_collision.empty()) {
+    result.robot.self_collision = options.self_collision == "on";
+  }
   result.robot.scene = options.scene;
   result.name = options.name;
   result.robot.tutorial = options.names == "tutorial";
@@ -306,6 +310,10 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_flag("--float-base", options.float_base,
                 "The root link is free to move, as that of a walking robot; else it stands still "
                 "where it has no mass, or is called world or base_link and no joint floats");
+  verb.add_option("--self-collision", options.self_collision,
+                  "on or off: whether links of the robot touch each other; if not given, off for "
+                  "URDF, and for MJCF what the model says")
+      .one_of({"on", "off"});
   verb.add_flag("--merge-fixed", options.merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options.physics,

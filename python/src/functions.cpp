@@ -133,7 +133,7 @@ nb::object compare(const std::filesystem::path& path, const OpenArguments& argum
 /// How a robot's description is to be read, as tenon_usd hands it over.
 ConvertFileOptions convert_options(const OpenArguments& arguments, const std::string& name,
                                    const std::string& gains, bool fix_base, bool float_base,
-                                   bool merge_fixed, bool scene,
+                                   bool merge_fixed, bool scene, std::optional<bool> self_collision,
                                    const std::map<std::string, std::string>& packages) {
   ConvertFileOptions options;
   options.open = arguments.open;
@@ -143,6 +143,7 @@ ConvertFileOptions convert_options(const OpenArguments& arguments, const std::st
   options.robot.float_base = float_base;
   options.robot.merge_fixed = merge_fixed;
   options.robot.scene = scene;
+  options.robot.self_collision = self_collision;
   if (!gains.empty()) {
     or_raise(read_gains(gains, options.open.files, options.robot));
   }
@@ -269,10 +270,11 @@ bool is_asset(const std::filesystem::path& path) {
 nb::object convert(const std::filesystem::path& input, const std::filesystem::path& output,
                    const OpenArguments& arguments, const std::string& name,
                    const std::string& gains, bool fix_base, bool float_base, bool merge_fixed,
-                   bool scene, const std::map<std::string, std::string>& packages, bool force,
-                   bool update, const std::string& conflicts) {
-  const ConvertFileOptions options =
-      convert_options(arguments, name, gains, fix_base, float_base, merge_fixed, scene, packages);
+                   bool scene, std::optional<bool> self_collision,
+                   const std::map<std::string, std::string>& packages, bool force, bool update,
+                   const std::string& conflicts) {
+  const ConvertFileOptions options = convert_options(arguments, name, gains, fix_base, float_base,
+                                                     merge_fixed, scene, self_collision, packages);
   Diagnostics found;
   const Json json =
       or_raise(unlocked([&]() -> Result<Json> {
@@ -388,11 +390,12 @@ void bind_checks(nb::module_& module) {
 void bind_functions(nb::module_& module) {
   bind_checks(module);
   module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "gains"_a,
-             "fix_base"_a, "float_base"_a, "merge_fixed"_a, "scene"_a, "packages"_a, "force"_a,
-             "update"_a, "conflicts"_a,
+             "fix_base"_a, "float_base"_a, "merge_fixed"_a, "scene"_a, "self_collision"_a.none(),
+             "packages"_a, "force"_a, "update"_a, "conflicts"_a,
              nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
                      "arguments: OpenArguments, name: str, gains: str, fix_base: bool, "
                      "float_base: bool, merge_fixed: bool, scene: bool, "
+                     "self_collision: bool | None, "
                      "packages: Mapping[str, str], force: bool, update: bool, "
                      "conflicts: str) -> dict[str, Any]"));
   module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,

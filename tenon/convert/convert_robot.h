@@ -36,8 +36,11 @@ struct ConvertOptions {
   /// The root moves: one called "world" or "base_link", which is held else, and one without mass,
   /// with that of its colliders or a millionth of what it carries.
   bool float_base = false;
-  bool fix_base = false;     ///< the root is held by the world, whatever its name
-  bool scene = false;        ///< the model's world too: gravity, time step, options of MuJoCo
+  bool fix_base = false;  ///< the root is held by the world, whatever its name
+  bool scene = false;     ///< the model's world too: gravity, time step, options of MuJoCo
+  /// Whether links of the robot touch each other; not given: as the description has it, of URDF
+  /// not.
+  std::optional<bool> self_collision;
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;
   /// What the tutorial of Asset Structure 3.0 has beyond: three operations for each link's pose,

@@ -31,6 +31,23 @@ void declare_texts(Path robot, LayerBuilder& builder) {
   }
 }
 
+/// Said in each engine's form, because what its absence means is not the same everywhere.
+void write_self_collision(const Source& source, RobotLayer& layer) {
+  const layer::Value on(source.options.self_collision.value_or(source.model.self_collision));
+  if (!source.options.self_collision && !source.model.self_collision) {
+    layer.diagnostics().add({Severity::Info, "convert.self-collision",
+                             "links of the robot do not touch each other: URDF does not say, and "
+                             "its simulators have it off",
+                             layer.robot().str(), "", "convert with --self-collision on"});
+  }
+  LayerBuilder& builder = layer.builder();
+  builder.apply(layer.robot(), "NewtonArticulationRootAPI");
+  builder.set_value(layer.robot(), "NewtonArticulationRootAPI", "newton:selfCollisionEnabled", on);
+  builder.apply(layer.robot(), "PhysxArticulationAPI");
+  builder.set_value(layer.robot(), "PhysxArticulationAPI",
+                    "physxArticulation:enabledSelfCollisions", on);
+}
+
 }  // namespace
 
 void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
@@ -56,6 +73,7 @@ void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
   }
   if (!joints.empty()) {
     builder.apply(layer.robot(), "PhysicsArticulationRootAPI");
+    write_self_collision(source, layer);
   }
   builder.apply(layer.robot(), "IsaacRobotAPI");
   builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotLinks", std::move(links));

@@ -274,6 +274,9 @@ struct RobotModel {
   std::vector<Joint> joints;
   std::vector<Material> materials;
   std::vector<MeshFile> meshes;  ///< each file once
+  /// Its links touch each other, except excluded pairs. URDF does not say; its simulators have it
+  /// off.
+  bool self_collision = true;
   /// Pairs of links whose colliders do not touch each other.
   std::vector<std::array<Index, 2>> excluded_pairs;
   std::vector<ContactClass> contact_classes;

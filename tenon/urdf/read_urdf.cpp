@@ -107,6 +107,7 @@ Result<robot::RobotModel> UrdfReader::run(pugi::xml_node robot) {
       }
     }
   }
+  model_.self_collision = false;
   model_.parts_folders = paths_.found_folders();
   return std::move(model_);
 }
