@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tenon
-from .errors import Error, UnstableError
+from .errors import Error, InvalidError, UnstableError
 from .options import OpenOptions, PathLike, arguments_of
 
 if TYPE_CHECKING:
@@ -223,13 +223,15 @@ class World:
     ) -> None:
         """Targets of the drives: positions [rad or m] and velocities [rad/s or m/s].
 
-        Shape (envs, drives), or what broadcasts to it. They hold until they are set anew or reset.
-        Drives that exert no force are passed over.
+        Shape (envs, drives), or what broadcasts to it. They hold until they are set again or reset.
+        Drives that exert no force are skipped. InvalidError where a number is not finite: no target
+        changes then.
         """
-        if positions is not None:
-            self._targets[:] = positions
-        if velocities is not None:
-            self._target_velocities[:] = velocities
+        shape = self._targets.shape
+        wanted = [None if v is None else _finite(v, shape) for v in (positions, velocities)]
+        for held, new in zip((self._targets, self._target_velocities), wanted):
+            if new is not None:
+                held[:] = new
         self._batch.set_targets(self._targets, self._target_velocities)
 
     def set_efforts(self, efforts: npt.ArrayLike) -> None:
@@ -414,6 +416,13 @@ class World:
 def _spread(values: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
     array = np.asarray(values, dtype=np.float64)
     return np.ascontiguousarray(np.broadcast_to(array, shape))
+
+
+def _finite(values: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
+    array = _spread(values, shape)
+    if not np.isfinite(array).all():
+        raise InvalidError("targets must be finite numbers")
+    return array
 
 
 def _index(paths: list[str], path: str) -> int:

@@ -51,6 +51,12 @@ class Grasp(support.FilesTestCase):
         some, _ = envs.reset(options={"reset_mask": np.array([True, False])})
         self.assertEqual(some.shape, first.shape)
 
+    def test_an_action_that_is_no_number_is_refused(self):
+        envs = GraspEnv(support.GRASP, num_envs=2)
+        envs.reset(seed=0)
+        with self.assertRaises(ValueError):
+            envs.step(np.full(envs.action_space.shape, np.nan))
+
 
 def grasping(envs, time):
     """What the asset's own drives aim at, as an action."""

@@ -124,6 +124,14 @@ def Xform "W"
         self.assertEqual(world.drive_efforts().shape, (4, drives))
         with self.assertRaises(ValueError):
             world.drive_targets = np.zeros(drives + 1)
+        held = world.drive_targets
+        for wrong in (np.nan, np.inf):
+            targets = np.full(drives, 0.1)
+            targets[-1] = wrong
+            for name in ("positions", "velocities"):
+                with self.assertRaises(tenon.InvalidError):
+                    world.set_drive_targets(**{name: targets})
+        np.testing.assert_array_equal(world.drive_targets, held)
 
     def test_outputs_have_to_be_asked_for(self):
         world = tenon.World(support.GRASP)
