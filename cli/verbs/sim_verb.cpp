@@ -85,6 +85,24 @@ void print_not_mapped(const Json& items) {
   }
 }
 
+std::string shown(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// What the steps were made with, a line each.
+void print_settings(const Json& settings) {
+  print("settings\n");
+  for (const auto& [name, value] : settings.items()) {
+    if (!value.is_object()) {
+      print("  %-28s %s\n", name.c_str(), shown(value).c_str());
+      continue;
+    }
+    for (const auto& [prim, on] : value.items()) {
+      print("  %-28s %s  <%s>\n", name.c_str(), on.get<bool>() ? "on" : "off", prim.c_str());
+    }
+  }
+}
+
 /// What the run was given and asked for, as far as it was.
 void print_request(const Json& state) {
   if (state.contains("stateIn")) {
@@ -102,7 +120,7 @@ void print_request(const Json& state) {
   }
 }
 
-void print_state(const Json& state) {
+void print_state(const Json& state, bool verbose) {
   const std::string rate =
       state.contains("realTimeFactor")
           ? "  " + rounded_text(state["realTimeFactor"].get<double>()) + " times real time"
@@ -111,6 +129,9 @@ void print_state(const Json& state) {
         state["engineVersion"].get<std::string>().c_str(), state["steps"].get<std::size_t>(),
         state["dt"].get<double>(), state["time"].get<double>(), rate.c_str(),
         state["unstable"].get<bool>() ? "  UNSTABLE" : "");
+  if (verbose) {
+    print_settings(state["settings"]);
+  }
   print("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
         state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());
   if (!state["joints"].empty()) {
@@ -204,7 +225,7 @@ int run_sim(const Globals& globals, const SimArguments& options) {
   }
   Json state = simulated_json(*simulated, options.timing);
   if (!globals.json && !options.uses_standard_output()) {
-    print_state(state);
+    print_state(state, globals.verbose);
   }
   if (simulated->run.interrupted) {
     return report.finish(kInterrupted, std::move(state));

@@ -163,7 +163,9 @@ class Runner {
         options_(options),
         run_(run),
         recorder_(simulation, scene, options, run.recording),
-        joints_(simulation, scene) {
+        joints_(simulation, scene),
+        spins_(simulation, scene),
+        energy_(simulation, scene) {
     if (options.commands != nullptr) {
       commands_.emplace(*options.commands, scene, simulation);
     }
@@ -184,6 +186,8 @@ class Runner {
       TENON_CHECK(one_step(step));
     }
     run_.joint_faults = joints_.faults();
+    run_.fast_spins = spins_.fast();
+    run_.drift = options_.commands == nullptr ? energy_.drift() : std::nullopt;
     return recorder_.finish();
   }
 
@@ -200,6 +204,8 @@ class Runner {
     recorder_.before_step(step);
     TENON_CHECK(simulation_.step());
     joints_.after_step();
+    spins_.after_step();
+    energy_.after_step();
     TENON_CHECK(recorder_.after_step());
     ++run_.steps;
     run_.time = simulation_.time();
@@ -214,6 +220,8 @@ class Runner {
   Run& run_;
   Recorder recorder_;
   JointWatch joints_;
+  SpinWatch spins_;
+  EnergyDriftWatch energy_;
   std::optional<CommandPlayer> commands_;
   std::optional<RestWatch> rest_;
 };
@@ -241,6 +249,7 @@ Run run_simulation(Simulation& simulation, const scene::PhysicsScene& scene,
     run.failure = std::move(done).error();
   }
   run.final_energy = simulation.energy();
+  run.events = simulation.events();
   return run;
 }
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "tenon/bake/commands/commands.h"
+#include "tenon/bake/energy_drift.h"
 #include "tenon/bake/joint_watch.h"
 #include "tenon/bake/rest.h"
+#include "tenon/bake/spin_watch.h"
 #include "tenon/bake/state_recording.h"
 #include "tenon/base/error.h"
 #include "tenon/base/function.h"
@@ -36,8 +38,11 @@ struct Run {
   engines::Energy final_energy;
   bool interrupted = false;
   std::optional<double> rest_since;        ///< [s]; everything rested from then to the end
-  std::vector<JointFault> joint_faults{};  ///< of a run that did not fail
-  std::optional<Error> failure;            ///< why the run ended early: unstable, for example
+  std::vector<engines::Event> events{};    ///< those of the simulation
+  std::vector<JointFault> joint_faults{};  ///< this and what follows: of a run that did not fail
+  std::vector<FastSpin> fast_spins{};
+  std::optional<EnergyDrift> drift;
+  std::optional<Error> failure;  ///< why the run ended early: unstable, for example
 };
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two

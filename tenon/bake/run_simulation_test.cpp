@@ -33,6 +33,7 @@ class MadeUpMotion : public engines::Simulation {
   std::size_t contact_count() const override { return 0; }
   std::size_t dof_count() const override { return 1; }
   const std::vector<engines::NotMapped>& not_mapped() const override { return none_; }
+  std::vector<scene::VendorSetting> settings() const override { return {}; }
   const std::vector<engines::Event>& events() const override { return no_events_; }
   Vec3d center_of_mass(scene::Index body) const override { return body_state(body).pose.position; }
   Vec3d gravity(scene::Index) const override { return {}; }

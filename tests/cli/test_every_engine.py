@@ -233,5 +233,189 @@ class Joints(unittest.TestCase):
         self.assertGreater(outside, 0)
 
 
+def scene(gravity, parts):
+    return """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{
+    def PhysicsScene "Scene" { float physics:gravityMagnitude = %s
+    }
+%s}
+""" % (gravity, "".join(parts))
+
+
+def cube(name, at, size, apis, lines=()):
+    return """    def Cube "%s" (prepend apiSchemas = [%s])
+    {
+        double size = %s
+        double3 xformOp:translate = %s
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+%s    }
+""" % (name, ", ".join(f'"{api}"' for api in apis), size, at,
+       "".join(f"        {line}\n" for line in lines))
+
+
+BODY = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "PhysicsCollisionAPI")
+
+
+class EachEngine(unittest.TestCase):
+    """Scenes whose answer is known, on each engine."""
+
+    def simulate(self, layer, engine, duration, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.usda")
+            path.write_text(layer)
+            done = run("sim", path, "--engine", engine, "--duration", duration, "--json", *words)
+            return json.loads(done.stdout)
+
+    def rules(self, answer):
+        return {d["rule"] for d in answer["diagnostics"]}
+
+    def test_a_joint_breaks_above_its_limit_alone(self):
+        """A lever of 1 m with 1 kg at its end, and one of 10 kg that hangs: 1 % on either side."""
+        for engine in ENGINES:
+            for kind, mass, limit, load in (("Torque", 1, "breakTorque", 9.81),
+                                            ("Force", 10, "breakForce", 98.1)):
+                for share in (0.99, 1.01):
+                    with self.subTest(engine=engine, kind=kind, share=share):
+                        layer = scene(9.81, [
+                            cube("load", "(1, 0, 0)", 0.1, BODY,
+                                 [f"float physics:mass = {mass}"]),
+                            '    def PhysicsFixedJoint "holds"\n    {\n'
+                            "        rel physics:body1 = </World/load>\n"
+                            "        point3f physics:localPos1 = (-1, 0, 0)\n"
+                            f"        float physics:{limit} = {load * share}\n    }}\n"])
+                        answer = self.simulate(layer, engine, "0.5")
+                        broke = [e for e in answer["events"] if "broke" in e["what"]]
+                        self.assertEqual(len(broke), 1 if share < 1 else 0, answer["events"])
+
+    def test_what_passes_through_a_wall_is_told(self):
+        for engine in ENGINES:
+            for speed in (1, 50):
+                with self.subTest(engine=engine, speed=speed):
+                    layer = scene(0, [
+                        cube("wall", "(1, 0, 0)", 0.01, ["PhysicsCollisionAPI"],
+                             ["float3 xformOp:scale = (1, 100, 100)"]).replace(
+                                 '["xformOp:translate"]',
+                                 '["xformOp:translate", "xformOp:scale"]'),
+                        cube("ball", "(0, 0, 0)", 0.02, BODY,
+                             [f"vector3f physics:velocity = ({speed}, 0, 0)"])])
+                    answer = self.simulate(layer, engine, str(1.5 / speed))
+                    passed = answer["bodies"]["/World/ball"]["position"][0] > 1.01
+                    told = [d["prim"] for d in answer["diagnostics"]
+                            if d["rule"] == "sim.passed-through"]
+                    self.assertEqual(told, ["/World/ball"] if passed else [])
+
+    def test_a_body_that_tumbles_too_fast_is_told(self):
+        inertia = "float3 physics:diagonalInertia = (0.01, 0.02, 0.03)"
+        bodies = {speed: scene(0, [cube("body", "(0, 0, 0)", 0.1, BODY, [
+            "float physics:mass = 1", inertia,
+            f"vector3f physics:angularVelocity = ({20 * speed}, {speed}, {60 * speed})"])])
+            for speed in (1, 57.3)}
+        for engine in ENGINES:
+            for speed, layer in bodies.items():
+                with self.subTest(engine=engine, speed=speed):
+                    answer = self.simulate(layer, engine, "1")
+                    self.assertEqual("sim.fast-spin" in self.rules(answer), speed > 1)
+        answer = self.simulate(bodies[57.3], "mujoco", "1", "--integrator", "rk4")
+        self.assertFalse({"sim.fast-spin", "sim.energy-drift"} & self.rules(answer))
+
+    def test_what_starts_asleep_stays_there(self):
+        layer = scene(9.81, [cube("box", "(0, 0, 2)", 0.1, BODY, [
+            "bool physics:startsAsleep = 1", "vector3f physics:velocity = (0.5, 0, 0)"])])
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                answer = self.simulate(layer, engine, "0.5")
+                self.assertEqual(answer["bodies"]["/World/box"]["position"], [0, 0, 2])
+                self.assertAlmostEqual(answer["energy"]["initial"], answer["energy"]["final"])
+
+    def test_a_locked_axis_is_held_against_gravity(self):
+        layer = scene(9.81, [cube("box", "(0, 0, 2)", 0.1, (*BODY, "PhysxRigidBodyAPI"), [
+            "int physxRigidBody:lockedPosAxis = 4", "vector3f physics:velocity = (1, 0, 0)"])])
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                answer = self.simulate(layer, engine, "0.5")
+                for found, wanted in zip(answer["bodies"]["/World/box"]["position"], (0.5, 0, 2)):
+                    self.assertAlmostEqual(found, wanted, delta=1e-3)
+
+    def test_a_force_of_the_asset_is_no_energy_from_nowhere(self):
+        layer = scene(0, [cube("box", "(0, 0, 2)", 0.1, (*BODY, "PhysxForceAPI"), [
+            "float physics:mass = 1", "vector3f physxForce:force = (1000, 0, 0)",
+            'uniform token physxForce:mode = "force"'])])
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                answer = self.simulate(layer, engine, "0.5")
+                self.assertFalse(answer["unstable"], answer["diagnostics"])
+                [speed, _, _] = answer["bodies"]["/World/box"]["linearVelocity"]
+                self.assertAlmostEqual(speed, 500, delta=1)
+
+
+class Settings(unittest.TestCase):
+    """Each run says what it was made with."""
+
+    def test_of_each_engine_and_as_asked_for(self):
+        example = EXAMPLES[0]
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                words = ("sim", example, "--engine", engine, "--duration", "0.01")
+                settings = json.loads(run(*words, "--json").stdout)["settings"]
+                for name in ("integrator", "solver"):
+                    self.assertIsInstance(settings[name], str)
+                self.assertTrue(any(name.lower().endswith("iterations") for name in settings))
+                self.assertIsInstance(settings["selfCollision"], dict)
+                shown = run(*words, "-v").stdout
+                for name in settings:
+                    if name != "selfCollision" or settings[name]:
+                        self.assertIn("  " + name, shown)
+        settings = json.loads(run("sim", example, "--engine", "mujoco", "--duration", "0.01",
+                                  "--integrator", "rk4", "--solver", "cg", "--iterations", "7",
+                                  "--json").stdout)["settings"]
+        self.assertEqual([settings[name] for name in ("integrator", "solver", "iterations")],
+                         ["rk4", "cg", 7])
+
+
+ROBOT = """<robot name="pair">
+  %s
+  <joint name="a" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="b" type="fixed"><parent link="upper"/><child link="lower"/>
+    <origin xyz="0.02 0 0"/></joint>
+</robot>
+""" % "".join(f"""<link name="{name}">
+    <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+    </inertial>
+    <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  """ for name in ("base", "upper", "lower"))
+
+
+class SelfCollision(unittest.TestCase):
+    """Converted robots say whether their links touch each other, and engines do as they say."""
+
+    def test_is_off_for_urdf_unless_it_is_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            urdf = pathlib.Path(folder, "pair.urdf")
+            urdf.write_text(ROBOT)
+            for words, on in (((), False), (("--self-collision", "off"), False),
+                              (("--self-collision", "on"), True)):
+                for output in ("flat.usda", "layers"):
+                    path = pathlib.Path(folder, f"{on}{len(words)}{output}")
+                    done = run("convert", urdf, path, "--fix-base", *words, "-v")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual("convert.self-collision" in done.stderr, not words)
+                    asset = path / "pair.usda" if output == "layers" else path
+                    for engine in ENGINES:
+                        with self.subTest(words=words, output=output, engine=engine):
+                            answer = json.loads(run("sim", asset, "--engine", engine, "--duration",
+                                                    "0.01", "--json").stdout)
+                            self.assertEqual(list(answer["settings"]["selfCollision"].values()),
+                                             [on])
+                            self.assertEqual(answer["contacts"] > 0, on)
+
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

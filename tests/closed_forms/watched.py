@@ -71,7 +71,7 @@ def passing():
     )
 
 
-def powered():
+def sprung():
     mass = 2.0
     for paces, name in ((60.0, "60"), (150.0, "150")):
         stiffness = mass * paces**2
@@ -95,6 +95,10 @@ def powered():
             max(times, 0.1),
             (coordinate(times, place, 0.3 * (0.02 + paces * 0.001)),),
         )
+
+
+def powered():
+    mass = 2.0
     end, fast = ode.oscillator(0.1, mass, 2 * 0.05 * mass * 15, mass * 225, start=-1.0)
     yield Form(
         "spring_release",
@@ -227,6 +231,7 @@ def quiet(*scenes):
 
 
 KINDS = {
+    "springs without damping": [sprung],
     "passing where nothing is to touch": quiet(passing),
     "energy from where it may come": quiet(powered, pushed, held),
 }

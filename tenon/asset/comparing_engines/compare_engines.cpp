@@ -12,6 +12,7 @@
 
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
+#include "tenon/bake/report_run.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
@@ -195,6 +196,7 @@ Result<void> run_all(const CompareEnginesOptions& options, const motions::Motion
     Diagnostics found;
     TENON_TRY(one.motion, motions::run_motion(one.setup, plan, found));
     add_new(found, diagnostics);
+    bake::report_run(one.setup.scene, one.motion.run, diagnostics, one.setup.name);
     if (one.motion.run.failure) {
       diagnostics.add(one.motion.run.failure->diagnostic());
     }

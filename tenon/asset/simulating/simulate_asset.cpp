@@ -17,13 +17,13 @@
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
+#include "tenon/bake/report_run.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
 #include "tenon/make_simulation.h"
-#include "tenon/math/angle.h"
 #include "tenon/physics/read_physics.h"
 
 namespace tenon {
@@ -216,71 +216,10 @@ void tell_sensors(const SimulateAssetOptions& options, const SimulatedAsset& ass
   }
 }
 
-/// Small fast bodies that were before something at one step and behind it at the next.
-void report_passages(const SimulatedAsset& asset, Diagnostics& diagnostics) {
-  for (const engines::Event& event : asset.simulation->events()) {
-    if (event.kind != engines::EventKind::PassedThrough) {
-      continue;
-    }
-    Diagnostic finding;
-    finding.severity = Severity::Warning;
-    finding.rule = "sim.passed-through";
-    finding.prim = event.prim.str();
-    Message message = "at " + shortest(event.time) + " s the body " + event.what;
-    message.about(event.other, RelatedRole::Collider);
-    finding.say(message);
-    finding.fix = "give a smaller --dt, so that it moves by less than its own size in a step";
-    diagnostics.add(std::move(finding));
-  }
-}
-
-/// What is wrong with joints at the end of a run: of each kind the worst, and the others by name.
-void report_joints(const SimulatedAsset& asset, bake::JointFault::Kind kind,
-                   Diagnostics& diagnostics) {
-  const bool shakes = kind == bake::JointFault::Kind::Shakes;
-  const std::vector<bake::JointFault>& faults = asset.run.joint_faults;
-  const bake::JointFault* worst = nullptr;
-  std::size_t count = 0;
-  for (const bake::JointFault& fault : faults) {
-    count += fault.kind == kind ? 1 : 0;
-    worst =
-        fault.kind == kind && (worst == nullptr || fault.amount > worst->amount) ? &fault : worst;
-  }
-  if (worst == nullptr) {
-    return;
-  }
-  const std::string unit = worst->angular ? "degrees" : "m";
-  char amount[32];
-  std::snprintf(amount, sizeof amount, "%.3g ",
-                worst->angular ? worst->amount * kDegreesPerRadian : worst->amount);
-  Message message =
-      shakes ? "the joint shakes: its velocity changes sign within a few steps, at up to " +
-                   (amount + unit) + "/s"
-             : "the joint ends the run " + (amount + unit) + " outside of its limits";
-  for (const bake::JointFault& fault : faults) {
-    if (fault.kind == kind && &fault != worst) {
-      message.about(asset.scene->joints[fault.joint].path, RelatedRole::Joint);
-    }
-  }
-  if (count > 1) {
-    message += ", and so do " + std::to_string(count - 1) + " more";
-  }
-  Diagnostic finding;
-  finding.severity = Severity::Warning;
-  finding.rule = shakes ? "sim.joint-shakes" : "sim.beyond-limit";
-  finding.prim = asset.scene->joints[worst->joint].path.str();
-  finding.say(message);
-  finding.fix = shakes ? "take a smaller time step, another integrator or a softer drive"
-                       : "start within the limits, or look at what pushes the joint there";
-  diagnostics.add(std::move(finding));
-}
-
 void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset,
                 Diagnostics& diagnostics) {
   const bake::Run& run = asset.run;
-  report_passages(asset, diagnostics);
-  report_joints(asset, bake::JointFault::Kind::Shakes, diagnostics);
-  report_joints(asset, bake::JointFault::Kind::BeyondLimit, diagnostics);
+  bake::report_run(*asset.scene, run, diagnostics);
   if (run.failure) {
     diagnostics.add(run.failure->diagnostic());
   } else if (options.until_rest && !run.rest_since && !run.interrupted) {

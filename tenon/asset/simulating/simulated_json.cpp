@@ -58,6 +58,25 @@ Json events_json(const SimulatedAsset& s) {
   return items;
 }
 
+/// What the run was made with: settings of the engine, and which articulations collide with
+/// themselves.
+Json settings_json(const SimulatedAsset& s) {
+  Json settings = Json::object();
+  for (const scene::VendorSetting& setting : s.simulation->settings()) {
+    const std::vector<double>& numbers = setting.numbers;
+    append_member(settings, setting.name,
+                  !setting.token.empty() ? Json(setting.token)
+                  : numbers.size() == 1  ? Json(numbers.front())
+                                         : Json(numbers));
+  }
+  Json articulations = Json::object();
+  for (const scene::Articulation& articulation : s.scene->articulations) {
+    append_member(articulations, articulation.path.str(), articulation.self_collision);
+  }
+  settings["selfCollision"] = std::move(articulations);
+  return settings;
+}
+
 /// What the run was given and asked for.
 void add_request(const SimulatedAsset& s, Json& state) {
   if (!s.state_in.empty()) {
@@ -100,6 +119,7 @@ Json simulated_json(const SimulatedAsset& s, bool timing) {
   if (timing) {
     state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
   }
+  state["settings"] = settings_json(s);
   state["unstable"] = s.unstable();
   state["bodies"] = bodies_json(s);
   state["joints"] = joints_json(s);
