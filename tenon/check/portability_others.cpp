@@ -6,9 +6,10 @@
 // where the outcome differs on the asset at hand.
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
 
+#include "tenon/base/text/counted.h"
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
 #include "tenon/math/angle.h"
@@ -153,6 +154,35 @@ void check_unit_readers(const Subject& subject, Reporter& report) {
                      "density " +
                      digits(1 / (length * length * length)) + " times as heavy",
                  "author the asset in metres and kilograms");
+}
+
+// S-93
+void check_newton_break(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    if (scene::can_break(joint)) {
+      report.at(prim_of_joint(subject, joint),
+                "Newton breaks no joint: this one breaks at " + breaking_load(joint) +
+                    " here and holds for ever there",
+                "remove physics:breakForce and physics:breakTorque if it is to hold everywhere");
+    }
+  });
+}
+
+// S-38
+void check_newton_instancers(const Subject& subject, Reporter& report) {
+  std::map<Path, std::size_t> instances;
+  for (const Body& body : subject.scene.bodies) {
+    if (body.instance) {
+      instances[body.instance->instancer] += 1;
+    }
+  }
+  for (const auto& [instancer, count] : instances) {
+    report.at(subject.stage.prim(instancer),
+              "Newton reads no physics below a point instancer: its " +
+                  counted(count, "body", "bodies") + (count == 1 ? " is" : " are") +
+                  " missing there",
+              "write each instance as a prim with a reference to its prototype");
+  }
 }
 
 // S-104

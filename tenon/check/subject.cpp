@@ -135,6 +135,11 @@ void Reporter::at_root(const stage::Stage& stage, const Message& message, std::s
 
 std::string digits(double value) { return rounded_text(value, 3); }
 
+std::string breaking_load(const scene::Joint& joint) {
+  return std::isfinite(joint.break_force) ? digits(joint.break_force) + " N"
+                                          : digits(joint.break_torque) + " N m";
+}
+
 std::optional<double> authored_number(const stage::Prim& prim, Token name) {
   const stage::Attribute attribute = prim.attribute(name);
   return attribute.has_authored_value() ? physics::number_of(attribute.get()) : std::nullopt;
