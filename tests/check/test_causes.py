@@ -149,6 +149,18 @@ def Xform "World" {apis}
         # I = m a^2 / 6 of a cube, m d^2 beside it: (0.2^2 / 6 + 1) / (0.2^2 / 6) = 151.
         self.assertIn("151 times weaker", found[0]["message"])
 
+    def test_what_mujocos_reader_leaves_out_is_one_finding_that_names_all(self):
+        drive = '"PhysicsDriveAPI:angular"', "float drive:angular:physics:damping = 1"
+        self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge("J", *drive)
+                   + hinge("K", *drive).replace("body0 = </World/A>", "body0 = </World/C>")
+                   + box("C", "(2, 0, 1)"))
+        found = [d for d in self.check("--for", "mujoco")
+                 if d["rule"] == "portability.drive-ignored"]
+        self.assertEqual([d["prim"] for d in found], ["/World/J"])
+        self.assertIn("mujoco-usd, not --engine mujoco", found[0]["message"])
+        self.assertIn("2 joints", found[0]["message"])
+        self.assertEqual([row["path"] for row in found[0]["related"]], ["/World/K"])
+
     def fixes(self):
         return {d["rule"] for d in self.check() if d["autofix"]}
 
