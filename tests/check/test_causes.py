@@ -149,6 +149,13 @@ def Xform "World" {apis}
         # I = m a^2 / 6 of a cube, m d^2 beside it: (0.2^2 / 6 + 1) / (0.2^2 / 6) = 151.
         self.assertIn("151 times weaker", found[0]["message"])
 
+    def test_a_spring_that_no_step_weakens_is_no_undamped_drive(self):
+        drive = '"PhysicsDriveAPI:angular"'
+        for stiffness, wanted in ((0.05, []), (10, ["drive.undamped"])):
+            self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge(
+                "J", drive, f"float drive:angular:physics:stiffness = {stiffness}"))
+            self.assertEqual(self.found(), wanted)
+
     def test_what_mujocos_reader_leaves_out_is_one_finding_that_names_all(self):
         drive = '"PhysicsDriveAPI:angular"', "float drive:angular:physics:damping = 1"
         self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge("J", *drive)
