@@ -509,7 +509,7 @@ void check_physx_limits(const Subject& subject, Reporter& report) {
         report.at(joint_prim(subject, joint),
                   "outside of articulations PhysX refuses a lower limit above the upper one: the "
                   "joint moves freely there, and is locked here",
-                  "use a PhysicsFixedJoint, or equal limits");
+                  "use a PhysicsFixedJoint");
       }
     } else {
       report_range(subject, joint, report);
