@@ -283,7 +283,8 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);
   verb.add_option("--for", options->rules.engines,
-                  "What these engines do otherwise on the asset: rules of the family portability")
+                  "What these engines do otherwise where they read the asset themselves, not by "
+                  "tenon sim --engine: rules of the family portability")
       .split_at_commas()
       .one_of(check::known_engines());
   verb.add_option(

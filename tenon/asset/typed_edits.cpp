@@ -15,7 +15,7 @@
 
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/text_number.h"
-#include "tenon/check/overlaps.h"
+#include "tenon/check/overlaps/overlaps.h"
 
 namespace tenon {
 namespace {

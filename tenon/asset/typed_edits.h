@@ -37,7 +37,8 @@ Path filtered_prim(const stage::Stage& stage, const scene::PhysicsScene& scene, 
 Result<std::vector<AssetEdit>> filter_edits(const stage::Stage& stage,
                                             const scene::PhysicsScene& scene,
                                             const std::string& text);
-/// The same for all pairs of bodies that overlap at the start (check/overlaps.h), each once.
+/// The same for all pairs of bodies that overlap at the start (check/overlaps/overlaps.h), each
+/// once.
 std::vector<AssetEdit> overlap_edits(const stage::Stage& stage, const scene::PhysicsScene& scene);
 
 }  // namespace tenon

@@ -6,9 +6,12 @@
 // or a binding to a prim of another type, is judged on the prims. A root that the reader of the
 // physics has refused with a reason gets no second finding.
 #include <algorithm>
+#include <map>
 
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
+#include "tenon/scene/joint_forest.h"
+#include "tenon/scene/joint_freedom.h"
 
 namespace tenon::check {
 namespace {
@@ -52,6 +55,34 @@ void check_link_velocity(const Subject& subject, Reporter& report) {
                       " has a velocity of its own, which PhysX ignores",
                   "author the velocities of the joints with PhysicsJointStateAPI");
       }
+    }
+  }
+}
+
+// S-110: a joint that closes no loop and could be one of the tree.
+void check_excluded_link(const Subject& subject, Reporter& report) {
+  const scene::PhysicsScene& scene = subject.scene;
+  const scene::JointForest forest = scene::joint_forest(scene);
+  std::map<scene::Index, Path> articulation_of;
+  for (const scene::Articulation& articulation : scene.articulations) {
+    for (const scene::Index link : articulation.links) {
+      articulation_of.emplace(link, articulation.path);
+    }
+  }
+  for (scene::Index i = 0; i < scene.bodies.size(); ++i) {
+    const scene::ForestBody& body = forest.bodies[i];
+    if (!body.joint || !body.parent || articulation_of.contains(i) ||
+        !articulation_of.contains(*body.parent)) {
+      continue;
+    }
+    const scene::Joint& joint = scene.joints[*body.joint];
+    if (joint.exclude_from_articulation && scene::is_reducible(joint) && !scene::can_break(joint)) {
+      report.at(subject.stage.prim(joint.path), "physics:excludeFromArticulation",
+                "the joint is excluded and closes no loop: " +
+                    named(scene.bodies[i].path, RelatedRole::Body) + " is no link of " +
+                    named(articulation_of.at(*body.parent), RelatedRole::Articulation) +
+                    ", and the joint holds it as a constraint that may give",
+                "remove physics:excludeFromArticulation to make the body a link");
     }
   }
 }

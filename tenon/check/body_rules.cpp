@@ -50,6 +50,21 @@ void check_body_mirror(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-29
+void check_asleep_velocity(const Subject& subject, Reporter& report) {
+  for (const scene::Body& body : subject.scene.bodies) {
+    const double speed = length(body.linear_velocity);
+    const double spin = length(body.angular_velocity);
+    if (body.starts_asleep && !body.kinematic && (speed > 0 || spin > 0)) {
+      report.at(subject.stage.prim(body.path), "physics:startsAsleep",
+                "the body starts asleep, so its velocity of " +
+                    (speed > 0 ? digits(speed) + " m/s" : digits(spin) + " rad/s") +
+                    " does not act: it rests until something touches it",
+                "remove physics:startsAsleep, or the velocity");
+    }
+  }
+}
+
 void check_bodies_exist(const Subject& subject, Reporter& report) {
   if (!subject.scene.bodies.empty()) {
     return;

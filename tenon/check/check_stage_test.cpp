@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/base/text/nearest_name.h"
-#include "tenon/check/convex_overlap.h"
+#include "tenon/check/overlaps/convex_overlap.h"
 #include "tenon/check/rule.h"
 
 namespace tenon::check {

@@ -1,18 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Overlaps are found by sweep and prune: solids sorted by their low x meet only those that begin
-// before they end. World boxes come before the exact test. The smaller solid of a pair is shrunk by
-// a tenth first, so that touching and resting contacts are no overlap. Only convex shapes take
-// part. Exact tests and reports have a limit, as a heap of bodies in one place has millions of
-// pairs.
+// What colliders are before anything moves: which of them overlap, whether they can be seen,
+// whether their meshes have faces that look outward, whether their size is authored. Reports of
+// overlaps have a limit, as a heap of bodies in one place has millions of pairs.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
-#include "tenon/check/convex_overlap.h"
-#include "tenon/check/overlaps.h"
+#include "tenon/check/overlaps/overlaps.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/scene/shapes/mesh_inertia.h"
@@ -24,70 +20,9 @@ using scene::Collider;
 using scene::Index;
 using scene::ShapeKind;
 
-/// The smaller of two solids may reach this part of its size into the other.
-constexpr double kDepth = 0.1;
-constexpr std::size_t kMaxSteps = 50000000;  // of the sweep, where most shapes are side by side
 /// Pairs that are reported one by one, and those that are counted.
 constexpr std::size_t kMaxReports = 100;
 constexpr std::size_t kMaxCounted = 10000;
-
-Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
-  return collider.body ? scene.bodies[*collider.body].pose * collider.pose : collider.pose;
-}
-
-Vec3d middle_of(const std::vector<Vec3d>& points) {
-  Vec3d low = points.front();
-  Vec3d high = low;
-  for (const Vec3d& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::fmin(low[i], p[i]);
-      high[i] = std::fmax(high[i], p[i]);
-    }
-  }
-  return (low + high) * 0.5;
-}
-
-struct Placed {
-  Index collider = 0;
-  ConvexSolid solid;
-  Vec3d low;
-  Vec3d high;
-};
-
-std::vector<Placed> placed_solids(const scene::PhysicsScene& scene) {
-  std::vector<Placed> placed;
-  for (Index i = 0; i < scene.colliders.size(); ++i) {
-    const Collider& collider = scene.colliders[i];
-    if (!collider.enabled || !is_convex(collider.shape)) {
-      continue;
-    }
-    Placed item;
-    item.collider = i;
-    item.solid = {&collider.shape, nullptr, world_pose(scene, collider), {}, 1};
-    if (collider.shape.kind == ShapeKind::ConvexHull) {
-      item.solid.points = &scene.meshes[collider.shape.mesh].points;
-      item.solid.middle = middle_of(*item.solid.points);
-    }
-    std::tie(item.low, item.high) = bounds_of(item.solid);
-    placed.push_back(item);
-  }
-  std::sort(placed.begin(), placed.end(),
-            [](const Placed& a, const Placed& b) { return a.low[0] < b.low[0]; });
-  return placed;
-}
-
-bool is_dynamic(const scene::PhysicsScene& scene, const Collider& collider) {
-  return collider.body && !scene.bodies[*collider.body].kinematic;
-}
-
-bool boxes_meet(const Placed& a, const Placed& b) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) {
-      return false;
-    }
-  }
-  return true;
-}
 
 /// The first triangle's normal, by the orientation of the mesh, looks away from the first authored
 /// one.
@@ -139,41 +74,7 @@ Path instance_of(stage::Prim prim) {
   return prim.path();
 }
 
-/// Reaching into each other by more than what rounding and resting contacts explain.
-bool reach_into(Placed a, Placed b) {
-  const bool a_smaller = length(a.high - a.low) <= length(b.high - b.low);
-  (a_smaller ? a : b).solid.keep = 1 - kDepth;
-  return overlap(a.solid, b.solid);
-}
-
 }  // namespace
-
-std::vector<std::pair<Index, Index>> overlaps_at_start(const scene::PhysicsScene& scene,
-                                                       std::size_t most) {
-  const std::vector<Placed> placed = placed_solids(scene);
-  std::vector<std::pair<Index, Index>> found;
-  std::size_t steps = 0;
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < placed.size() && found.size() < most; ++i) {
-    const Collider& a = scene.colliders[placed[i].collider];
-    for (std::size_t j = i + 1; j < placed.size() && placed[j].low[0] <= placed[i].high[0]; ++j) {
-      if (pairs >= kAllOverlaps || found.size() >= most || ++steps > kMaxSteps) {
-        return found;
-      }
-      const Collider& b = scene.colliders[placed[j].collider];
-      if ((!is_dynamic(scene, a) && !is_dynamic(scene, b)) || !boxes_meet(placed[i], placed[j]) ||
-          !scene.may_collide(placed[i].collider, placed[j].collider)) {
-        continue;
-      }
-      ++pairs;
-      if (reach_into(placed[i], placed[j])) {
-        const bool in_order = a.path < b.path;
-        found.emplace_back(placed[in_order ? i : j].collider, placed[in_order ? j : i].collider);
-      }
-    }
-  }
-  return found;
-}
 
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const scene::PhysicsScene& scene = subject.scene;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tenon/check/convex_overlap.h"
+#include "tenon/check/overlaps/convex_overlap.h"
 #include "tenon/scene/shapes/shape_mass.h"
 
 namespace tenon::check {

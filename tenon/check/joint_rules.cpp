@@ -40,6 +40,22 @@ bool is_without_place(const Subject& subject, const std::optional<Index>& body) 
   return body && subject.has_finding("body.not-finite", subject.scene.bodies[*body].path.str());
 }
 
+bool is_bounded(const scene::Limit& limit) {
+  return limit.locked() || std::isfinite(limit.lower) || std::isfinite(limit.upper);
+}
+
+/// A D6 or distance joint that leaves its bodies as free as without it.
+bool holds_nothing(const Joint& joint) {
+  if (joint.kind == JointKind::Distance) {
+    return !(joint.lower > 0) && std::isinf(joint.upper);
+  }
+  const auto drives = [](const scene::Drive& d) { return d.stiffness != 0 || d.damping != 0; };
+  return joint.kind == JointKind::D6 &&
+         std::none_of(joint.limits.begin(), joint.limits.end(), is_bounded) &&
+         std::none_of(joint.drives.begin(), joint.drives.end(), drives) && joint.mimics.empty() &&
+         joint.stiffness == 0 && joint.damping == 0 && joint.friction == 0;
+}
+
 /// Authored limits in the file's own numbers.
 struct AuthoredLimits {
   double lower = -INFINITY;
@@ -98,6 +114,43 @@ void check_crossed_limits(const Subject& subject, Reporter& report) {
                     digits(limits.upper) + ": the joint is locked",
                 "swap the limits, or use a PhysicsFixedJoint to lock the joint");
     }
+  }
+}
+
+// S-98: legal as well; a robot of which nobody wrote the limits has them, 0 and 0.
+void check_equal_limits(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    if (!has_one_axis(joint) || !joint.enabled || joint.lower != joint.upper) {
+      continue;
+    }
+    report.at(prim_of(subject, joint), kLower,
+              "both limits are " + digits(joint.lower * coordinate_unit(subject.scene, joint)) +
+                  ": the joint is locked",
+              "author limits that are apart, or use a PhysicsFixedJoint to lock the joint");
+  }
+}
+
+// S-95, S-97
+void check_holds_nothing(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    const std::string path = joint.path.str();
+    const bool told = subject.has_finding("attribute.api-missing", path) ||
+                      subject.has_finding("limit.unknown-axis", path);
+    if (!joint.enabled || told || !holds_nothing(joint)) {
+      continue;
+    }
+    const bool distance = joint.kind == JointKind::Distance;
+    const bool apart = joint.body0 && joint.body1 && !joint.collision_enabled;
+    report.at(prim_of(subject, joint),
+              about_bodies(subject.scene, joint,
+                           std::string(distance ? "physics:minDistance and physics:maxDistance "
+                                                  "leave every distance open"
+                                                : "no limit and no drive acts on any of the six "
+                                                  "axes") +
+                               ": the joint holds nothing" +
+                               (apart ? ", it only keeps its bodies from colliding" : "")),
+              distance ? "author physics:maxDistance or physics:minDistance"
+                       : "apply PhysicsLimitAPI to the axes that it is to hold, or remove it");
   }
 }
 

@@ -22,9 +22,9 @@ using scene::Body;
 using scene::Index;
 using scene::Joint;
 
-constexpr double kDefaultStep = 0.002;  ///< [s] where the asset asks for none
-constexpr double kWeak = 1.05;          ///< load over force that is reported
-constexpr double kAtLimit = 1e-3;       ///< [rad or m]
+constexpr double kWeak = 1.05;      ///< load over force that is reported
+constexpr double kLostSwing = 0.1;  ///< share that a step takes out of a swing in a second
+constexpr double kAtLimit = 1e-3;   ///< [rad or m]
 
 Pose frame_in_world(const scene::PhysicsScene& scene, const Joint& joint) {
   return joint.body0 ? scene.bodies[*joint.body0].pose * joint.frame0 : joint.frame0;
@@ -102,8 +102,53 @@ bool carries_alone(const Joint& joint) {
   return has_one_axis(joint) && joint.enabled && joint.mimics.empty() && joint.stiffness == 0;
 }
 
-double step_of(const scene::PhysicsScene& scene, const Body& body) {
-  return scene.scenes[body.scene].time_step.value_or(kDefaultStep);
+/// The inertia about the axis of a joint of one axis, or the mass along it, of a body and all that
+/// hangs on it, in the start pose [kg m^2 or kg].
+double moved_inertia(const scene::PhysicsScene& scene, const scene::JointForest& forest,
+                     const Joint& joint, Index first) {
+  const Pose frame = frame_in_world(scene, joint);
+  Vec3d unit;
+  unit[static_cast<std::size_t>(joint.axis)] = 1;
+  const Vec3d axis = rotate(frame.orientation, unit);
+  double sum = joint.armature;
+  std::vector<Index> pending{first};
+  while (!pending.empty()) {
+    const Index at = pending.back();
+    pending.pop_back();
+    const Body& body = scene.bodies[at];
+    const Vec3d own = rotate(conjugate(body.pose.orientation), axis);
+    const Vec3d arm = transform_point(body.pose, body.center_of_mass) - frame.position;
+    const Vec3d across = arm - axis * dot(arm, axis);
+    sum += joint.kind == scene::JointKind::Prismatic
+               ? body.mass
+               : dot(own * body.inertia, own) + body.mass * dot(across, across);
+    const auto& children = forest.bodies[at].children;
+    pending.insert(pending.end(), children.begin(), children.end());
+  }
+  return sum;
+}
+
+/// The spring of a drive to a position along the joint's axis that nothing damps [N m/rad or N/m,
+/// or 1/s^2 of an acceleration drive]; null where there is none.
+const scene::Drive* undamped_drive(const Joint& joint) {
+  const scene::Drive* spring = nullptr;
+  for (const scene::Drive& drive : joint.drives) {
+    if (drive.damping != 0 || drive.target_velocity != 0) {
+      return nullptr;  // a target velocity without damping is drive.target-without-gain
+    }
+    spring =
+        drive.stiffness > 0 && drive.dof == joint.dof() && drive.max_force > 0 ? &drive : spring;
+  }
+  return joint.damping == 0 && joint.friction == 0 ? spring : nullptr;
+}
+
+/// What a damping of 1 in the asset is here [N m s/rad, N s/m, or 1/s of an acceleration drive].
+double damping_unit(const scene::PhysicsScene& scene, const Joint& joint,
+                    const scene::Drive& drive) {
+  const bool turns = joint.kind == scene::JointKind::Revolute;
+  const double length = turns ? scene.meters_per_unit : 1;
+  const double mass = drive.acceleration ? 1 : scene.kilograms_per_unit * length * length;
+  return turns ? mass * kDegreesPerRadian : mass;
 }
 
 /// Which way is down in a scene: the axis along which gravity pulls most; none without gravity.
@@ -217,6 +262,37 @@ void check_weak_drive(const Subject& subject, Reporter& report) {
                     ", its drive gives at most " + digits(force) + unit + ": it gives way",
                 "author a larger maxForce, or lighten what hangs on the joint");
     }
+  }
+}
+
+// A spring of the angular frequency w loses w^2 dt / 2 of its swing in a second to an implicit step
+// of dt. The spring moves at most the inertia of all that hangs on the joint.
+void check_undamped_drive(const Subject& subject, Reporter& report) {
+  const scene::PhysicsScene& scene = subject.scene;
+  const scene::JointForest forest = scene::joint_forest(scene);
+  for (Index i = 0; i < scene.bodies.size(); ++i) {
+    const scene::ForestBody& body = forest.bodies[i];
+    if (!body.joint || !carries_alone(scene.joints[*body.joint])) {
+      continue;
+    }
+    const Joint& joint = scene.joints[*body.joint];
+    const scene::Drive* drive = undamped_drive(joint);
+    if (drive == nullptr || scene.bodies[i].angular_damping > 0) {
+      continue;
+    }
+    const double inertia = moved_inertia(scene, forest, joint, i);
+    const double square = drive->acceleration ? drive->stiffness : drive->stiffness / inertia;
+    if (!(square * step_of(scene, scene.bodies[i]) / 2 > kLostSwing)) {
+      continue;
+    }
+    const double critical = 2 * std::sqrt(square) * (drive->acceleration ? 1 : inertia);
+    report.at(subject.stage.prim(drive->source),
+              "nothing damps the drive: the joint swings about its target at " +
+                  digits(std::sqrt(square) / (2 * kPi)) +
+                  " Hz and more, for ever on MuJoCo, and fades on PhysX and Jolt by an amount that "
+                  "the time step decides",
+              "author damping; at about " + digits(critical / damping_unit(scene, joint, *drive)) +
+                  " the joint hardly overshoots");
   }
 }
 

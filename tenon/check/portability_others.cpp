@@ -3,12 +3,14 @@
 //
 // What Newton and MuJoCo's USD reader do otherwise. Each rule is about what they read from a file,
 // not about how they solve it; the pages say with which releases it was seen. A rule speaks only
-// where the outcome differs on the asset at hand.
+// where the outcome differs on the asset at hand. What MuJoCo's reader does not read it does not
+// read anywhere, so that is one finding of an asset, about all prims.
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
 
+#include "tenon/base/text/counted.h"
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
 #include "tenon/math/angle.h"
@@ -27,6 +29,9 @@ using scene::JointKind;
 constexpr double kPlainDensity = 1000;  ///< [kg/m^3]
 constexpr double kSameMass = 0.01;      ///< relative
 constexpr double kSameGravity = 1e-6;   ///< [m/s^2]
+
+/// In messages; `tenon sim --engine mujoco` gets what tenon's own reader reads.
+std::string mujoco_reader() { return "MuJoCo's own USD reader (mujoco-usd, not --engine mujoco)"; }
 
 stage::Prim prim_of_joint(const Subject& subject, const Joint& joint) {
   return subject.stage.prim(joint.path);
@@ -50,6 +55,19 @@ std::size_t unnamed_dofs(const Joint& joint) {
     count += named || scene::is_locked(joint, dof) ? 0 : 1;
   }
   return count;
+}
+
+/// One finding about all of some prims, at the first of them.
+void report_all(const Subject& subject, const std::vector<Path>& paths, RelatedRole role,
+                Message message, const char* fix, Reporter& report, Token property = {}) {
+  if (paths.empty()) {
+    return;
+  }
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    message.about(paths[i], role);
+  }
+  const stage::Prim prim = subject.stage.prim(paths.front());
+  property.empty() ? report.at(prim, message, fix) : report.at(prim, property, message, fix);
 }
 
 bool drives_something(const scene::Drive& drive) {
@@ -145,14 +163,43 @@ void check_unit_readers(const Subject& subject, Reporter& report) {
     return;
   }
   report.at_root(subject.stage,
-                 "Newton and MuJoCo's reader take lengths as metres and masses as kilograms: with "
-                 "metersPerUnit " +
+                 "Newton and " + mujoco_reader() +
+                     " take lengths as metres and masses as kilograms: with metersPerUnit " +
                      digits(length) + " and kilogramsPerUnit " + digits(mass) + " all is " +
                      digits(1 / length) +
                      " times as large, and what weighs by its "
                      "density " +
                      digits(1 / (length * length * length)) + " times as heavy",
                  "author the asset in metres and kilograms");
+}
+
+// S-93
+void check_newton_break(const Subject& subject, Reporter& report) {
+  each_enabled_joint(subject, [&](const Joint& joint) {
+    if (scene::can_break(joint)) {
+      report.at(prim_of_joint(subject, joint),
+                "Newton breaks no joint: this one breaks at " + breaking_load(joint) +
+                    " here and holds for ever there",
+                "remove physics:breakForce and physics:breakTorque if it is to hold everywhere");
+    }
+  });
+}
+
+// S-38
+void check_newton_instancers(const Subject& subject, Reporter& report) {
+  std::map<Path, std::size_t> instances;
+  for (const Body& body : subject.scene.bodies) {
+    if (body.instance) {
+      instances[body.instance->instancer] += 1;
+    }
+  }
+  for (const auto& [instancer, count] : instances) {
+    report.at(subject.stage.prim(instancer),
+              "Newton reads no physics below a point instancer: its " +
+                  counted(count, "body", "bodies") + (count == 1 ? " is" : " are") +
+                  " missing there",
+              "write each instance as a prim with a reference to its prototype");
+  }
 }
 
 // S-104
@@ -197,57 +244,73 @@ void check_unbound_friction(const Subject& subject, Reporter& report) {
   if (moves && first != nullptr && subject.scene.colliders.size() > 1) {
     report.at(subject.stage.prim(first->path),
               std::to_string(count) + (count == 1 ? " collider has" : " colliders have") +
-                  " no physics material: Newton and MuJoCo's reader give them a friction of 1, "
-                  "here it is " +
+                  " no physics material: Newton and " + mujoco_reader() +
+                  " give them a friction of 1, here it is " +
                   digits(subject.scene.unbound.dynamic_friction),
               "bind a material with PhysicsMaterialAPI");
   }
 }
 
 void check_mujoco_drives(const Subject& subject, Reporter& report) {
+  std::vector<Path> joints;
   each_enabled_joint(subject, [&](const Joint& joint) {
-    for (const scene::Drive& drive : joint.drives) {
-      if (drive.source == joint.path && drives_something(drive)) {
-        report.at(prim_of_joint(subject, joint),
-                  "MuJoCo's reader ignores PhysicsDriveAPI: the joint has no motor there",
-                  "add an MjcActuator for the joint");
-      }
+    const bool driven =
+        std::any_of(joint.drives.begin(), joint.drives.end(), [&](const scene::Drive& drive) {
+          return drive.source == joint.path && drives_something(drive);
+        });
+    if (driven) {
+      joints.push_back(joint.path);
     }
   });
+  report_all(subject, joints, RelatedRole::Joint,
+             mujoco_reader() + " ignores PhysicsDriveAPI: " + counted(joints.size(), "joint") +
+                 (joints.size() == 1 ? " has" : " have") + " no motor there",
+             "add an MjcActuator for each such joint", report);
 }
 
 void check_mujoco_joint_kind(const Subject& subject, Reporter& report) {
+  std::map<JointKind, std::vector<Path>> joints;
   each_enabled_joint(subject, [&](const Joint& joint) {
     const bool known = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic ||
                        joint.kind == JointKind::Fixed;
     if (!known) {
-      report.at(prim_of_joint(subject, joint),
-                "MuJoCo's reader knows revolute, prismatic and fixed joints: this " +
-                    std::string(scene::joint_kind_name(joint.kind)) +
-                    " one constrains its bodies differently there, or not at all",
-                "build the joint of revolute and prismatic ones");
+      joints[joint.kind].push_back(joint.path);
     }
   });
+  for (const auto& [kind, paths] : joints) {
+    report_all(subject, paths, RelatedRole::Joint,
+               mujoco_reader() + " knows revolute, prismatic and fixed joints: " +
+                   counted(paths.size(), std::string(scene::joint_kind_name(kind)) + " joint") +
+                   (paths.size() == 1 ? " constrains its" : " constrain their") +
+                   " bodies differently there, or not at all",
+               "build the joint of revolute and prismatic ones", report);
+  }
 }
 
 // S-77
 void check_mujoco_groups(const Subject& subject, Reporter& report) {
   const scene::CollisionFilter& filter = subject.scene.filter;
   const std::size_t count = filter.group_paths.size();
+  std::vector<Path> groups;
   for (std::size_t g = 0; g < count; ++g) {
     bool off = filter.ungrouped_off[g] != 0;
     for (std::size_t h = 0; h < count; ++h) {
       off = off || filter.group_pair_off[g * count + h] != 0;
     }
     if (off) {
-      report.at(subject.stage.prim(filter.group_paths[g]),
-                "MuJoCo's reader ignores collision groups: what this one keeps apart touches there",
-                "filter pairs of bodies with PhysicsFilteredPairsAPI");
+      groups.push_back(filter.group_paths[g]);
     }
   }
+  report_all(subject, groups, RelatedRole::CollisionGroup,
+             mujoco_reader() + " ignores collision groups: what " +
+                 counted(groups.size(), "group") + (groups.size() == 1 ? " keeps" : " keep") +
+                 " apart touches there",
+             "filter pairs of bodies with PhysicsFilteredPairsAPI", report);
 }
 
 void check_mujoco_mass(const Subject& subject, Reporter& report) {
+  std::vector<Path> bodies;
+  std::string weights;  // of the first
   for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
     const Body& body = subject.scene.bodies[i];
     const stage::Prim prim = subject.stage.prim(body.path);
@@ -258,12 +321,18 @@ void check_mujoco_mass(const Subject& subject, Reporter& report) {
         !prim.has_api("PhysicsCollisionAPI") && !inertia &&
         authored_number(prim, "physics:mass").value_or(0) > 0 && other > 0 &&
         std::fabs(other / body.mass - 1) > kSameMass) {
-      report.at(prim, "physics:mass",
-                "MuJoCo's reader ignores a mass without moments of inertia: the body weighs " +
-                    digits(other) + " kg there, " + digits(body.mass) + " kg here",
-                "author physics:diagonalInertia with physics:mass");
+      weights =
+          bodies.empty() ? digits(other) + " kg there, " + digits(body.mass) + " kg here" : weights;
+      bodies.push_back(body.path);
     }
   }
+  report_all(subject, bodies, RelatedRole::Body,
+             mujoco_reader() + " ignores a mass without moments of inertia: " +
+                 (bodies.size() == 1
+                      ? "the body weighs "
+                      : "of " + std::to_string(bodies.size()) + " bodies the first one weighs ") +
+                 weights,
+             "author physics:diagonalInertia with physics:mass", report, "physics:mass");
 }
 
 // S-65
@@ -272,10 +341,10 @@ void check_mujoco_flat_mesh(const Subject& subject, Reporter& report) {
     const bool mesh = collider.shape.kind == scene::ShapeKind::ConvexHull ||
                       collider.shape.kind == scene::ShapeKind::Mesh;
     if (collider.enabled && mesh && subject.scene.meshes[collider.shape.mesh].flat) {
-      report.at(
-          subject.stage.prim(collider.path),
-          "all points of the mesh are in one plane: MuJoCo's reader does not load such a file",
-          "use a thin box, or a Plane");
+      report.at(subject.stage.prim(collider.path),
+                "all points of the mesh are in one plane: " + mujoco_reader() +
+                    " does not load such a file",
+                "use a thin box, or a Plane");
     }
   }
 }
@@ -287,8 +356,9 @@ void check_mujoco_root(const Subject& subject, Reporter& report) {
                     [&](const Body& found) { return found.path == articulation.path; });
     if (articulation.fixed_base && !body) {
       report.at(subject.stage.prim(articulation.path),
-                "MuJoCo's reader makes a free body without mass of an articulation root that is no "
-                "link, and loads no such file",
+                mujoco_reader() +
+                    " makes a free body without mass of an articulation root that is no link, and "
+                    "loads no such file",
                 "apply PhysicsArticulationRootAPI to the root link");
     }
   }
@@ -302,10 +372,10 @@ void check_mujoco_plane(const Subject& subject, Reporter& report) {
                           ? prim.attribute("axis").get_as<Token>()
                           : std::nullopt;
     if (collider.enabled && axis && *axis != "Z") {
-      report.at(
-          prim, "axis",
-          "MuJoCo's reader treats every plane as normal to Z; this one is normal to " + axis->str(),
-          "rotate a plane whose axis is Z");
+      report.at(prim, "axis",
+                mujoco_reader() + " treats every plane as normal to Z; this one is normal to " +
+                    axis->str(),
+                "rotate a plane whose axis is Z");
     }
   }
 }

@@ -30,6 +30,7 @@ constexpr double kSpinning = 1e-3;             ///< [rad/s]
 constexpr double kSameAngle = 1e-3;            ///< [rad]
 constexpr double kWeaker = 0.99;               ///< share of a drive that is reported
 constexpr double kTravelTime = 10;             ///< [s] that a fast body is followed
+constexpr int kFallSteps = 1000;               ///< of that time, in which a fall is looked at
 constexpr double kUnequalMasses = 100;
 constexpr double kDistanceTolerance = 0.025;  ///< [m] that PhysX lets distances be off
 constexpr double kOwnShare = 0.15;  ///< of the inertia about a joint, below which PhysX is soft
@@ -68,10 +69,19 @@ Vec3d world_axis(const scene::PhysicsScene& scene, const Joint& joint, Vec3d& po
   return rotate(frame.orientation, axis);
 }
 
-/// Between the frames of a joint at the start [m].
-double anchor_distance(const scene::PhysicsScene& scene, const Joint& joint) {
+/// How far a body gets that nothing holds [m].
+Vec3d free_way(const scene::PhysicsScene& scene, const Body& body, double seconds) {
+  const Vec3d gravity = scene.scenes[body.scene].gravity * body.gravity_scale;
+  return body.kinematic ? Vec3d()
+                        : body.linear_velocity * seconds + gravity * (seconds * seconds / 2);
+}
+
+/// Between the frames of a joint [m], the bodies moved from where they start.
+double anchor_distance(const scene::PhysicsScene& scene, const Joint& joint, double seconds) {
   const auto anchor = [&](const std::optional<Index>& body, const Pose& frame) {
-    return body ? transform_point(scene.bodies[*body].pose, frame.position) : frame.position;
+    return body ? transform_point(scene.bodies[*body].pose, frame.position) +
+                      free_way(scene, scene.bodies[*body], seconds)
+                : frame.position;
   };
   return length(anchor(joint.body1, joint.frame1) - anchor(joint.body0, joint.frame0));
 }
@@ -160,17 +170,69 @@ const scene::Collider* passed_collider(const Subject& subject, Index index, doub
   return nullptr;
 }
 
-/// Of a revolute joint whose limits are in order.
+/// A collider of another body, or of none, lies where the body falls.
+bool lands_before(const Subject& subject, const std::optional<Index>& body, double seconds) {
+  if (!body || subject.scene.bodies[*body].kinematic) {
+    return false;
+  }
+  const Body& falling = subject.scene.bodies[*body];
+  const Vec3d from = transform_point(falling.pose, falling.center_of_mass);
+  const Vec3d way = free_way(subject.scene, falling, seconds);
+  return std::any_of(subject.scene.colliders.begin(), subject.scene.colliders.end(),
+                     [&](const scene::Collider& collider) {
+                       const auto [low, high] = world_bounds(subject.scene, collider);
+                       const auto [enter, leave] = passage(from, way, low, high);
+                       return collider.enabled && collider.body != body && enter <= leave &&
+                              enter < 1;
+                     });
+}
+
+/// No joint but this one and slides holds the body.
+bool may_fall(const scene::PhysicsScene& scene, const Joint& joint,
+              const std::optional<Index>& body) {
+  return std::none_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& other) {
+    return body && other.path != joint.path && other.enabled &&
+           other.kind != JointKind::Prismatic && (other.body0 == body || other.body1 == body);
+  });
+}
+
+/// The bound of a distance joint that carries at the start, or that its bodies fall against [m].
+std::optional<double> loaded_bound(const Subject& subject, const Joint& joint) {
+  const bool open_above = std::isinf(joint.upper);
+  const bool falls =
+      may_fall(subject.scene, joint, joint.body0) && may_fall(subject.scene, joint, joint.body1);
+  for (int step = 0; step <= (falls ? kFallSteps : 0); ++step) {
+    const double seconds = kTravelTime * step / kFallSteps;
+    const double at = anchor_distance(subject.scene, joint, seconds);
+    const bool stretched = !open_above && at > joint.upper - kDistanceTolerance;
+    const bool pressed = joint.lower > 0 && at < joint.lower + kDistanceTolerance;
+    if (stretched || pressed) {
+      const bool lands = step > 0 && (lands_before(subject, joint.body0, seconds) ||
+                                      lands_before(subject, joint.body1, seconds));
+      return lands ? std::nullopt : std::optional(stretched ? joint.upper : joint.lower);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Of a joint of one axis whose limits are in order.
 void report_range(const Subject& subject, const Joint& joint, Reporter& report) {
+  const bool turns = joint.kind == JointKind::Revolute;
   const bool below = std::isfinite(joint.lower);
   const bool above = std::isfinite(joint.upper);
-  const bool beyond =
-      (below && joint.lower < -kPi - kSameAngle) || (above && joint.upper > kPi + kSameAngle);
+  const bool beyond = turns && ((below && joint.lower < -kPi - kSameAngle) ||
+                                (above && joint.upper > kPi + kSameAngle));
   if (joint.articulation && below != above) {
     report.at(joint_prim(subject, joint),
               "PhysX refuses limits that are open to one side in articulations: the joint does "
               "not move there",
               "author both limits, or none");
+  } else if (!joint.articulation && !turns && below != above) {
+    report.at(joint_prim(subject, joint),
+              "outside of articulations PhysX ignores a limit of a slide that is open to the other "
+              "side: it does not stop at " +
+                  digits(below ? joint.lower : joint.upper) + " m there",
+              "author both limits");
   } else if (!joint.articulation && (below != above || beyond)) {
     report.at(joint_prim(subject, joint),
               "outside of articulations PhysX knows angles of half a turn to each side: limits "
@@ -326,11 +388,9 @@ void check_physx_soft_mimic(const Subject& subject, Reporter& report) {
 void check_physx_break(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
     if (joint.articulation && joint.enabled && scene::can_break(joint)) {
-      const bool force = std::isfinite(joint.break_force);
       report.at(joint_prim(subject, joint),
                 "PhysX breaks no joint of an articulation: this one breaks at " +
-                    digits(force ? joint.break_force : joint.break_torque) +
-                    (force ? " N" : " N m") + " here and never there",
+                    breaking_load(joint) + " here and never there",
                 "author physics:excludeFromArticulation if it is to break");
     }
   }
@@ -427,14 +487,13 @@ void check_physx_distances(const Subject& subject, Reporter& report) {
     if (joint.kind != JointKind::Distance || !joint.enabled) {
       continue;
     }
-    const double at = anchor_distance(subject.scene, joint);
-    const bool taut =
-        at > joint.upper - kDistanceTolerance || at < joint.lower + kDistanceTolerance;
-    if (taut && (std::isfinite(joint.upper) || joint.lower > 0)) {
+    const std::optional<double> bound = loaded_bound(subject, joint);
+    if (bound) {
       report.at(joint_prim(subject, joint),
-                "PhysX lets the distance creep beyond its bounds by up to 0.025 m: under load it "
-                "comes to rest there, not at the bound",
-                "use a PhysicsSphericalJoint with its frames that distance apart for a rod");
+                "PhysX lets the distance creep beyond its bound of " + digits(*bound) +
+                    " m by up to 0.025 m: under load it comes to rest there, not at the bound",
+                "use a PhysicsSphericalJoint with its frames that distance apart for a rod, limits "
+                "of a PhysicsPrismaticJoint for a stop");
     }
   }
 }
@@ -442,8 +501,7 @@ void check_physx_distances(const Subject& subject, Reporter& report) {
 // S-98, S-99
 void check_physx_limits(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
-    const bool turns = joint.kind == JointKind::Revolute;
-    if (!joint.enabled || !(turns || joint.kind == JointKind::Prismatic)) {
+    if (!joint.enabled || !has_one_axis(joint)) {
       continue;
     }
     if (joint.lower > joint.upper) {
@@ -451,9 +509,9 @@ void check_physx_limits(const Subject& subject, Reporter& report) {
         report.at(joint_prim(subject, joint),
                   "outside of articulations PhysX refuses a lower limit above the upper one: the "
                   "joint moves freely there, and is locked here",
-                  "use a PhysicsFixedJoint, or equal limits");
+                  "use a PhysicsFixedJoint");
       }
-    } else if (turns) {
+    } else {
       report_range(subject, joint, report);
     }
   }

@@ -12,6 +12,8 @@
 
 #include "tenon/check/subject.h"
 #include "tenon/math/angle.h"
+#include "tenon/math/transform.h"
+#include "tenon/stage/transform_at.h"
 
 namespace tenon::check {
 namespace {
@@ -90,6 +92,12 @@ std::set<Index> used_materials(const scene::PhysicsScene& scene) {
 
 std::string merge_name(const stage::Prim& prim) {
   return prim.attribute("physics:mergeGroup").get_as<std::string>().value_or("");
+}
+
+/// Shapes that a shear changes beyond what portability.stretched-sphere says.
+bool keeps_shear(const scene::Shape& shape) {
+  return shape.kind != scene::ShapeKind::Plane && shape.kind != scene::ShapeKind::Ellipsoid &&
+         shape.kind != scene::ShapeKind::Spheres;
 }
 
 double largest_half(const scene::Shape& shape) {
@@ -260,6 +268,28 @@ void check_physx_ellipsoids(const Subject& subject, Reporter& report) {
                 "PhysX makes a ball of the stretched sphere, of its largest radius, " +
                     digits(largest_half(collider.shape)) + " m",
                 "scale the sphere evenly, or use a mesh with the approximation convexHull");
+    }
+  }
+}
+
+// S-33, S-56
+void check_physx_shear(const Subject& subject, Reporter& report) {
+  std::set<Path> told;  // a mesh of several pieces has several colliders
+  for (const Collider& collider : subject.scene.colliders) {
+    const stage::Prim prim = subject.stage.prim(collider.path);
+    if (!prim || !collider.enabled || !keeps_shear(collider.shape)) {
+      continue;
+    }
+    const Mat4d world = stage::local_to_world(prim, {});
+    if (factor(world).sheared && told.insert(collider.path).second) {
+      const auto stretch = [&](const Vec3d& axis) {
+        return digits(length(axis * upper_left(world)));
+      };
+      report.at(prim,
+                "PhysX leaves the shear out: it stretches the collider along its own axes by " +
+                    stretch({{1, 0, 0}}) + ", " + stretch({{0, 1, 0}}) + " and " +
+                    stretch({{0, 0, 1}}) + ", and keeps them at right angles",
+                "remove the non-uniform scale above the turned collider");
     }
   }
 }

@@ -135,6 +135,15 @@ void Reporter::at_root(const stage::Stage& stage, const Message& message, std::s
 
 std::string digits(double value) { return rounded_text(value, 3); }
 
+double step_of(const scene::PhysicsScene& scene, const scene::Body& body) {
+  return scene.scenes[body.scene].time_step.value_or(kDefaultStep);
+}
+
+std::string breaking_load(const scene::Joint& joint) {
+  return std::isfinite(joint.break_force) ? digits(joint.break_force) + " N"
+                                          : digits(joint.break_torque) + " N m";
+}
+
 std::optional<double> authored_number(const stage::Prim& prim, Token name) {
   const stage::Attribute attribute = prim.attribute(name);
   return attribute.has_authored_value() ? physics::number_of(attribute.get()) : std::nullopt;

@@ -66,6 +66,13 @@ class Reporter {
 /// Three digits, enough for a message.
 std::string digits(double value);
 
+inline constexpr double kDefaultStep = 0.002;  ///< [s] of tenon sim where the asset asks for none
+/// The time step of the scene of a body [s].
+double step_of(const scene::PhysicsScene& scene, const scene::Body& body);
+
+/// The load at which a joint breaks: "50 N", or "2 N m" where only a torque breaks it.
+std::string breaking_load(const scene::Joint& joint);
+
 /// A number of any numeric type that the asset authors, at the default time or the start.
 std::optional<double> authored_number(const stage::Prim& prim, Token name);
 std::optional<bool> authored_flag(const stage::Prim& prim, Token name);

@@ -110,4 +110,31 @@ void check_radian_targets(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-13
+void check_radian_velocity(const Subject& subject, Reporter& report) {
+  const Token name("physics:angularVelocity");
+  for (const stage::Prim& prim : subject.prims) {
+    const stage::Attribute attribute = prim.attribute(name);
+    const auto value = attribute.has_authored_value() ? attribute.get_as<Vec3f>() : std::nullopt;
+    std::string fractions;
+    std::string degrees;
+    for (std::size_t i = 0; value && i < 3; ++i) {
+      const double part = (*value)[i];
+      const std::string fraction = part == 0 ? "0" : fraction_of_pi(part);
+      if (fraction.empty()) {
+        fractions.clear();
+        break;
+      }
+      fractions += (i == 0 ? "" : ", ") + fraction;
+      degrees += (i == 0 ? "" : ", ") + digits(part * kDegreesPerRadian);
+    }
+    if (!fractions.empty() && fractions != "0, 0, 0") {
+      report.at(prim, name,
+                "physics:angularVelocity is (" + fractions +
+                    ") in degrees per second: it looks like radians",
+                "author (" + degrees + ") if radians were meant");
+    }
+  }
+}
+
 }  // namespace tenon::check

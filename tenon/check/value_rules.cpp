@@ -44,6 +44,13 @@ constexpr SizeOfShape kSizesOfShapes[] = {{"Cube", "size"},
                                           {"Cylinder_1", "radiusTop", true},
                                           {"Cylinder_1", "radiusBottom", true}};
 
+/// Moments of inertia that are not all 0.
+bool authors_moments(const stage::Prim& prim) {
+  const stage::Attribute inertia = prim.attribute("physics:diagonalInertia");
+  const auto moments = inertia.has_authored_value() ? inertia.get_as<Vec3f>() : std::nullopt;
+  return moments && !(to_double(*moments) == Vec3d{});
+}
+
 /// Which way is down on the stage; nothing where it does not say so itself.
 std::optional<Vec3d> authored_down(const stage::Stage& stage) {
   if (!stage.has_authored_metadata(layer::fields::upAxis)) {
@@ -133,19 +140,30 @@ void check_size_of_shapes(const Subject& subject, Reporter& report) {
 // S-41: zero means unset, and then what the colliders weigh.
 void check_zero_mass(const Subject& subject, Reporter& report) {
   const Token mass("physics:mass");
-  const Token inertia("physics:diagonalInertia");
   for (const scene::Body& body : subject.scene.bodies) {
     const stage::Prim prim = subject.stage.prim(body.path);
-    const auto moments = prim.attribute(inertia).has_authored_value()
-                             ? prim.attribute(inertia).get_as<Vec3f>()
-                             : std::nullopt;
-    if (moments && !(to_double(*moments) == Vec3d{}) && authored_number(prim, mass) == 0.0 &&
+    if (authors_moments(prim) && authored_number(prim, mass) == 0.0 &&
         body.mass_source != scene::MassSource::Authored) {
       report.at(prim, mass,
                 "the body has moments of inertia and a mass of 0, which means that none is "
                 "authored: it weighs " +
                     digits(body.mass) + " kg",
                 "author the mass that the moments belong to");
+    }
+  }
+}
+
+// S-41: the schema's way to leave the mass open; some exporters mean a body without mass.
+void check_unset_mass(const Subject& subject, Reporter& report) {
+  const Token name("physics:mass");
+  for (const scene::Body& body : subject.scene.bodies) {
+    const stage::Prim prim = subject.stage.prim(body.path);
+    if (prim && !body.kinematic && authored_number(prim, name) == 0.0 &&
+        body.mass_source != scene::MassSource::Authored && !authors_moments(prim)) {
+      report.at(prim, name,
+                "a mass of 0 means that none is authored: the body weighs " + digits(body.mass) +
+                    " kg by its colliders",
+                "author the mass, or remove physics:mass");
     }
   }
 }

@@ -25,6 +25,19 @@ BOX = """    def Cube "{name}" (
         {extra}
     }}
 """
+FLOOR = """    def Cube "Floor" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+    {
+        double size = 1
+        float3 xformOp:scale = (20, 20, 1)
+        double3 xformOp:translate = (0, 0, -0.5)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+    }
+"""
+MATERIAL = """    def Material "M" (prepend apiSchemas = ["PhysicsMaterialAPI"])
+    {{
+        float physics:restitution = {}
+    }}
+"""
 
 
 def box(name, at, extra="", more=()):
@@ -148,6 +161,66 @@ def Xform "World" {apis}
         self.assertEqual([d["rule"] for d in found], ["portability.acceleration-drive"])
         # I = m a^2 / 6 of a cube, m d^2 beside it: (0.2^2 / 6 + 1) / (0.2^2 / 6) = 151.
         self.assertIn("151 times weaker", found[0]["message"])
+
+    def heavy_on(self, supports, mass, scene=""):
+        light = ["PhysicsMassAPI"]
+        boxes = [box(f"L{i}", at, "float physics:mass = 1", light) for i, at in enumerate(supports)]
+        top = box("Top", "(0, 0, 0.8)", f"float physics:mass = {mass}", light)
+        self.write(FLOOR + "".join(boxes) + top.replace("size = 0.2", "size = 1.2"), scene=scene)
+        return [d for d in self.check() if d["rule"] == "mass.contact-ratio"]
+
+    def test_a_heavy_body_on_a_light_one_is_told_from_where_engines_fail(self):
+        under, corners = ["(0, 0, 0.1)"], ["(0.5, 0.5, 0.1)", "(-0.5, 0.5, 0.1)",
+                                           "(0.5, -0.5, 0.1)", "(-0.5, -0.5, 0.1)"]
+        self.assertEqual(self.heavy_on(under, 39), [])
+        self.assertIn("41 kg rest on </World/L0> of 1 kg, 41 to 1",
+                      self.heavy_on(under, 41)[0]["message"])
+        self.assertEqual(self.heavy_on(corners, 396), [])  # a quarter on each
+        self.assertEqual(len(self.heavy_on(corners, 404)), 4)
+        self.assertEqual(self.heavy_on(["(0, 0, 0.1)", "(0.71, 0, 0.8)"], 30), [])
+        self.assertEqual(self.heavy_on(under, 1000, "float physics:gravityMagnitude = 0"), [])
+
+    def test_a_light_body_beside_or_above_a_heavy_one_is_none(self):
+        heavy = box("H", "(0, 0, 0.1)", "float physics:mass = 20", ["PhysicsMassAPI"])
+        for at in ("(0.2, 0, 0.1)", "(0, 0, 0.3)"):
+            self.write(FLOOR + heavy + box("L", at, "float physics:mass = 0.1", ["PhysicsMassAPI"]))
+            self.assertEqual(self.found(), [])
+
+    def row_of_balls(self, gap, restitution, more):
+        ball = box("{}", "({}, 0, 1)", "rel material:binding:physics = </World/M>",
+                   ["MaterialBindingAPI"]).replace("Cube", "Sphere").replace("size", "radius")
+        places = [("A", 0), ("B", 0.4 + gap)] + more
+        self.write(MATERIAL.format(restitution) + "".join(
+            ball.replace("{}", name, 1).replace("{}", str(x)) for name, x in places),
+            scene="float physics:gravityMagnitude = 0")
+        return [d["rule"] for d in self.check() if d["severity"] == "warning"]
+
+    def test_a_row_of_balls_is_told_where_something_can_hit_it(self):
+        told, striker = ["material.simultaneous-impacts"], [("C", -1)]
+        self.assertEqual(self.row_of_balls(0, 0.9, striker), told)
+        self.assertEqual(self.row_of_balls(0.0004, 0.5, striker), told)
+        self.assertEqual(self.row_of_balls(0, 0.49, striker), [])
+        self.assertEqual(self.row_of_balls(0.02, 0.9, striker), [])
+        self.assertEqual(self.row_of_balls(0, 0.9, []), [])
+
+    def test_a_spring_that_no_step_weakens_is_no_undamped_drive(self):
+        drive = '"PhysicsDriveAPI:angular"'
+        for stiffness, wanted in ((0.05, []), (10, ["drive.undamped"])):
+            self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge(
+                "J", drive, f"float drive:angular:physics:stiffness = {stiffness}"))
+            self.assertEqual(self.found(), wanted)
+
+    def test_what_mujocos_reader_leaves_out_is_one_finding_that_names_all(self):
+        drive = '"PhysicsDriveAPI:angular"', "float drive:angular:physics:damping = 1"
+        self.write(box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge("J", *drive)
+                   + hinge("K", *drive).replace("body0 = </World/A>", "body0 = </World/C>")
+                   + box("C", "(2, 0, 1)"))
+        found = [d for d in self.check("--for", "mujoco")
+                 if d["rule"] == "portability.drive-ignored"]
+        self.assertEqual([d["prim"] for d in found], ["/World/J"])
+        self.assertIn("mujoco-usd, not --engine mujoco", found[0]["message"])
+        self.assertIn("2 joints", found[0]["message"])
+        self.assertEqual([row["path"] for row in found[0]["related"]], ["/World/K"])
 
     def fixes(self):
         return {d["rule"] for d in self.check() if d["autofix"]}

@@ -218,7 +218,7 @@ class Verbs(Case):
                 "0,0,1.2", "--rotate", "0,90,0")
         self.do("add", self.scene, "/World/hinge=revolute", "--body0", "/World/box", "--body1",
                 "/World/tip", "--at", "0,0,1.05", "--axis", "Y", "--lower", "-30", "--upper", "30")
-        self.do("add", self.scene, "/World/hinge=drive", "--stiffness", "10")
+        self.do("add", self.scene, "/World/hinge=drive", "--stiffness", "10", "--damping", "1")
         return self.scene
 
     def test_check_is_silent_on_what_is_made(self):

@@ -180,6 +180,25 @@ def three_balls():
     return body("A", (0, 0, 0.12), None, collides=False, children=balls)
 
 
+def slid_box(scale):
+    """A box turned by 45 degrees below a prim of some scale; its body falls along a slide."""
+    box = static("C", turn=(0.9238795, 0, 0.3826834, 0), shape=("Cube", 0.2), material=ROUGH)
+    return scene(
+        rough(),
+        floor(ROUGH),
+        body(
+            "A",
+            (0, 0, 0.5),
+            None,
+            collides=False,
+            mass=1.0,
+            inertia=(0.02,) * 3,
+            children=[prim("Xform", "Scaled", (), place((0, 0, 0), None, scale), [box])],
+        ),
+        joint("prismatic", "S", None, A, (0, 0, 0.5), axis="Z"),
+    )
+
+
 def shapes():
     yield beside_physx(
         "points",
@@ -205,6 +224,14 @@ def shapes():
         SETTLED,
         0.003,
         180.0,
+    )
+    yield beside_physx(
+        "sheared",
+        "a box turned under a scale of (2, 1, 1), on a slide",
+        "sheared",
+        "the scale above the turned box",
+        [slid_box(scale) for scale in ((2, 1, 1), None)],
+        SETTLED,
     )
     yield beside_physx(
         "mass_between",

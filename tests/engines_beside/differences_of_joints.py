@@ -37,6 +37,16 @@ ROPE = joint(
     HINGE,
     lines=["float physics:maxDistance = 1", "float physics:minDistance = -1"],
 )
+SLIDE = joint("prismatic", "S", None, A, HINGE, axis="Z")
+STRUT = joint(
+    "distance",
+    "J",
+    None,
+    A,
+    (0, 0, 2),
+    lines=["float physics:maxDistance = -1", "float physics:minDistance = 0.9"],
+)
+STOPPED = joint("prismatic", "S", None, A, HINGE, axis="Z", limits=(-0.1, 1.0))
 ROD = joint("spherical", "J", None, A, HINGE, (0, 0, 1), axis="Z")
 
 
@@ -153,15 +163,6 @@ def bounded():
         ],
     )
     yield beside_physx(
-        "rope",
-        "a body hangs on a rope",
-        "distance-tolerance",
-        "a distance joint that carries",
-        [scene(bob(at=LOW), ROPE), scene(bob(at=LOW), ROD)],
-        (1.0, 2.0),
-        0.001,
-    )
-    yield beside_physx(
         "far_range",
         "a wheel between the limits -90 and 400 degrees turns up",
         "limit-range",
@@ -180,6 +181,38 @@ def bounded():
         (2.0, 2.5),
         0.01,
         180.0,
+    )
+
+
+def carried():
+    yield beside_physx(
+        "open_slide",
+        "a slide with a lower limit alone",
+        "limit-range",
+        "the missing upper limit",
+        [
+            scene(bob(), joint("prismatic", "J", None, A, (1, 0, 3), axis="Z", limits=limits))
+            for limits in ((-0.1, float("inf")), (-0.1, 1.0))
+        ],
+        (0.5, 1.0),
+    )
+    yield beside_physx(
+        "rope",
+        "a body hangs on a rope",
+        "distance-tolerance",
+        "a distance joint that carries",
+        [scene(bob(at=LOW), ROPE), scene(bob(at=LOW), ROD)],
+        (1.0, 2.0),
+        0.001,
+    )
+    yield beside_physx(
+        "strut",
+        "a body comes to rest on a minDistance",
+        "distance-tolerance",
+        "a distance joint that carries",
+        [scene(bob(at=HINGE), SLIDE, STRUT), scene(bob(at=HINGE), STOPPED)],
+        (1.0, 2.0),
+        0.001,
     )
 
 
@@ -413,5 +446,5 @@ def measured():
 
 
 def scenes():
-    for part in (driven, bounded, apart, measured, roots, mimics):
+    for part in (driven, bounded, carried, apart, measured, roots, mimics):
         yield from part()

@@ -85,7 +85,29 @@ def values():
     )
 
 
+def two_boxes():
+    """The same two boxes, by an instancer and one by one."""
+    box = body("Box", lines=[f"rel material:binding:physics = <{ROUGH}>"])
+    lines = [
+        "rel prototypes = </World/Many/Box>",
+        "int[] protoIndices = [0, 0]",
+        "point3f[] positions = [(0, 0, 5), (1, 0, 5)]",
+    ]
+    many = prim("PointInstancer", "Many", (), lines, [box])
+    return [
+        scene(rough(), many),
+        scene(rough(), body("A", (0, 0, 5), material=ROUGH), body("B", (1, 0, 5), material=ROUGH)),
+    ]
+
+
 def materials():
+    yield beside_newton(
+        "instancer_newton",
+        "two boxes of a point instancer",
+        "point-instancer",
+        "the instancer",
+        two_boxes(),
+    )
     yield beside_newton(
         "unbound_newton",
         "a box on a floor without materials",
@@ -131,6 +153,26 @@ def materials():
 
 
 def joints():
+    yield beside_newton(
+        "break_newton",
+        "a weld to the world that breaks at 10 N under 19.6 N",
+        "break-ignored",
+        "the break force",
+        [
+            scene(
+                bob(),
+                joint(
+                    "fixed",
+                    "J",
+                    None,
+                    A,
+                    (1, 0, 3),
+                    lines=[f"float physics:breakForce = {force}"],
+                ),
+            )
+            for force in ("10", "inf")
+        ],
+    )
     yield beside_newton(
         "acceleration_newton",
         "an acceleration drive",

@@ -84,9 +84,9 @@ def others():
     )
     yield Row(
         "distance_slack",
-        "a rope that a fall does not tighten",
+        "a rope that a slow drift does not tighten",
         scene(
-            bob(at=(0, 0, 3)),
+            bob(at=(0, 0, 3), velocity=(0, 0.1, 0)),
             joint(
                 "distance",
                 "J",
@@ -95,6 +95,7 @@ def others():
                 HINGE,
                 lines=["float physics:maxDistance = 3", "float physics:minDistance = -1"],
             ),
+            gravity=WEIGHTLESS,
         ),
     )
 

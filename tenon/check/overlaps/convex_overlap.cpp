@@ -6,7 +6,7 @@
 // and takes the nearest point of the simplex of it and those that carried the last one; one point
 // alone would creep along where a small solid lies on a large one. A point beyond the origin's
 // plane separates the solids.
-#include "tenon/check/convex_overlap.h"
+#include "tenon/check/overlaps/convex_overlap.h"
 
 #include <algorithm>
 #include <cmath>

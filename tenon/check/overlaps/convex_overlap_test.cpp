@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/check/convex_overlap.h"
+#include "tenon/check/overlaps/convex_overlap.h"
 
 #include <cmath>
 
