@@ -28,7 +28,7 @@ class PassageWatch {
     scene::Index collider = 0;  ///< one of the body's
     double way = 0;             ///< half of the thinnest side [m]; farther in a step is fast
     bool fast = false;
-    Vec3d center;  ///< of a fast one, after the step before, world [m]
+    Vec3d center{};  ///< of a fast one, after the step before, world [m]
   };
   void list_bodies(const scene::PhysicsScene& scene);
   void look_for_fast(const Simulation& simulation);

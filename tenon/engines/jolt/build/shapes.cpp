@@ -20,6 +20,7 @@
 #include <Jolt/Physics/Collision/Shape/SphereShape.h>
 #include <Jolt/Physics/Collision/Shape/StaticCompoundShape.h>
 
+#include "tenon/engines/hull_points.h"
 #include "tenon/engines/jolt/run/plane_shape.h"
 #include "tenon/scene/shapes/convex_hull.h"
 
@@ -33,7 +34,6 @@ using scene::ShapeKind;
 
 constexpr double kMostRounding = 0.001;  // [m]
 constexpr double kLeastSize = 1e-5;      // [m] Jolt takes no shape of no size
-constexpr int kEllipsoidPoints = 200;
 constexpr int kConePoints = 120;
 
 double rounding_of(double smallest) { return std::min(smallest / 20, kMostRounding); }
@@ -88,19 +88,6 @@ JPH::RefConst<JPH::Shape> make_hull(const std::vector<Vec3d>& points) {
     }
   }
   return nullptr;
-}
-
-// Points spread over a ball in a spiral, at equal heights.
-std::vector<Vec3d> ellipsoid_points(const Vec3d& axes) {
-  std::vector<Vec3d> points;
-  const double golden = M_PI * (3 - std::sqrt(5.0));
-  for (int i = 0; i < kEllipsoidPoints; ++i) {
-    const double z = 1 - 2 * (i + 0.5) / kEllipsoidPoints;
-    const double radius = std::sqrt(1 - z * z);
-    points.push_back({{axes[0] * radius * std::cos(golden * i),
-                       axes[1] * radius * std::sin(golden * i), axes[2] * z}});
-  }
-  return points;
 }
 
 std::vector<Vec3d> cone_points(const Shape& shape) {
@@ -231,7 +218,7 @@ void add_shape(Build& build, const Collider& collider, bool moves, std::vector<P
       made.push_back({new JPH::SphereShape(to_jolt(radius)), {}});
       break;
     case ShapeKind::Ellipsoid:
-      add_hull(build, collider, ellipsoid_points(shape.half_extents), made);
+      add_hull(build, collider, ellipsoid_points(shape.half_extents, true), made);
       break;
     case ShapeKind::Capsule:
       made.push_back({new JPH::CapsuleShape(to_jolt(half_height), to_jolt(radius)),

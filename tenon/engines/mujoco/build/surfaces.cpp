@@ -128,6 +128,11 @@ void report_materials(Build& build) {
                    "restitution of the pair, within a few per cent; below about 0.3 little of the "
                    "rebound is left");
     }
+    if (used[i] != 0 && material.restitution > 0 && material.dynamic_friction > 0) {
+      build.report(material.path, "physics:dynamicFriction",
+                   "a rebound lasts for several steps here, and friction acts all that time: what "
+                   "slides or spins when it bounces leaves with another velocity and spin");
+    }
   }
 }
 

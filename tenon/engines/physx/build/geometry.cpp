@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/engines/hull_points.h"
 #include "tenon/scene/shapes/convex_hull.h"
 
 namespace tenon::engines::physx {
@@ -19,7 +20,6 @@ using scene::Collider;
 using scene::Shape;
 using scene::ShapeKind;
 
-constexpr int kEllipsoidPoints = 200;
 constexpr int kHullCorners = 255;
 
 // The rotation that brings x to the shape's axis.
@@ -81,19 +81,6 @@ px::PxTriangleMesh* cook_triangles(Build& build, const scene::TriangleMesh& mesh
   }
   return build.model.owned.add(build.runtime.functions->create_triangles(
       *build.runtime.physics, cooking_at(extent_of(vertices)), wanted));
-}
-
-// Points spread over a ball in a spiral, at equal heights.
-std::vector<Vec3d> ellipsoid_points(const Vec3d& axes) {
-  std::vector<Vec3d> points;
-  const double golden = M_PI * (3 - std::sqrt(5.0));
-  for (int i = 0; i < kEllipsoidPoints; ++i) {
-    const double z = 1 - 2 * (i + 0.5) / kEllipsoidPoints;
-    const double radius = std::sqrt(1 - z * z);
-    points.push_back({{axes[0] * radius * std::cos(golden * i),
-                       axes[1] * radius * std::sin(golden * i), axes[2] * z}});
-  }
-  return points;
 }
 
 void add_hull(Build& build, const Collider& collider, const std::vector<Vec3d>& points,
@@ -197,7 +184,9 @@ std::vector<Geometry> geometry_of(Build& build, const Collider& collider, bool m
       made.push_back({px::PxGeometryHolder(px::PxSphereGeometry(to_px(shape.radius))), {}});
       break;
     case ShapeKind::Ellipsoid:
-      add_hull(build, collider, ellipsoid_points(shape.half_extents), made);
+      add_hull(build, collider, ellipsoid_points(shape.half_extents, false), made);
+      build.report(collider.path, "xformOp:scale",
+                   "an ellipsoid is a hull of 200 points here, up to 3 % inside of it");
       break;
     case ShapeKind::Capsule:
       made.push_back({px::PxGeometryHolder(
