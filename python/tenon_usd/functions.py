@@ -161,8 +161,9 @@ def convert(
     `output` is a file, or a folder for Asset Structure 3.0; of an asset an .xml or .urdf file.
     `gains` are K, D of a drive for each joint [N m/rad, N m s/rad or N/m, N s/m], or a JSON file.
     `self_collision` says whether links of the robot touch each other; None is no for URDF and what
-    the model says for MJCF. `packages` are folders of ROS packages by name. Files that were edited since they were written
-    stay, unless `force`. Returns {"output", "links", "joints", "diagnostics"}.
+    the model says for MJCF. `packages` are folders of ROS packages by name. Files that were edited
+    since they were written stay, unless `force`.
+    Returns {"output", "links", "joints", "diagnostics"}.
 
     `update` takes over what the source changed since and keeps what was edited in `output`, and
     adds "updated": {"files", "edits", "changes", "moved", "conflicts"}; give the options that the

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One finding for each kind of fault, about the worst of its kind: a robot whose joints all shake
+// says so once. The others are related, so that programs find them.
 #include "tenon/bake/report_run.h"
 
 #include <algorithm>

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "tenon/bake/commands/commands.h"
-#include "tenon/bake/energy_drift.h"
-#include "tenon/bake/joint_watch.h"
 #include "tenon/bake/rest.h"
-#include "tenon/bake/spin_watch.h"
 #include "tenon/bake/state_recording.h"
+#include "tenon/bake/watches/energy_drift.h"
+#include "tenon/bake/watches/joint_watch.h"
+#include "tenon/bake/watches/spin_watch.h"
 #include "tenon/base/error.h"
 #include "tenon/base/function.h"
 #include "tenon/engines/simulation.h"

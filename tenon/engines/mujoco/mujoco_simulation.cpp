@@ -21,8 +21,8 @@
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
 #include "tenon/engines/mujoco/run/read_state.h"
-#include "tenon/engines/passage_watch.h"
 #include "tenon/engines/scene_timeline.h"
+#include "tenon/engines/watches/passage_watch.h"
 
 namespace tenon::engines::mujoco {
 namespace {

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/engines/energy_bound.h"
 #include "tenon/engines/input_log.h"
-#include "tenon/engines/passage_watch.h"
 #include "tenon/engines/physx/model.h"
 #include "tenon/engines/physx/run/step_events.h"
 #include "tenon/engines/physx/run/step_inputs.h"
 #include "tenon/engines/physx/run/step_outputs.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/engines/steering.h"
+#include "tenon/engines/watches/energy_bound.h"
+#include "tenon/engines/watches/passage_watch.h"
 #include "tenon/scene/timeline/timeline.h"
 
 namespace tenon::engines::physx {

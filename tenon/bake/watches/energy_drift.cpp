@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/energy_drift.h"
+#include "tenon/bake/watches/energy_drift.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@ namespace tenon::engines {
 /// step is found within eight steps, and is looked at in each from then on.
 class PassageWatch {
  public:
-  /// What was set from outside, whose motion is none of a step.
+  /// What was set from outside, which moves bodies outside of steps.
   void note(const Input& input);
   /// Before a step.
   void begin(const Simulation& simulation, const scene::PhysicsScene& scene);

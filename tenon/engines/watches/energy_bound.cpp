@@ -9,7 +9,7 @@
 // d v^2 / 4 in each second, or its largest force times v; forces that were set, force times speed;
 // bodies that follow poses and surfaces that carry give what they touch at most twice their speed.
 // Limits, loops and dampers give nothing.
-#include "tenon/engines/energy_bound.h"
+#include "tenon/engines/watches/energy_bound.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // both meet the same collider, and what lies between is outside at both ends, the body has passed
 // it, unless a contact pushes it back in the steps that follow. A collider that moves is passed as
 // seen from its body. Planes have no other side.
-#include "tenon/engines/passage_watch.h"
+#include "tenon/engines/watches/passage_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/spin_watch.h"
+#include "tenon/bake/watches/spin_watch.h"
 
 #include <algorithm>
 #include <cmath>
