@@ -139,10 +139,10 @@ class NamesOfImages(unittest.TestCase):
                     rules = {d["rule"] for d in answer["diagnostics"]}
                     self.assertEqual("read.unreadable" in rules, name not in self.GOOD)
                 for asset in ("r.usda", "r.usdc", "asset/r.usda"):
-                    code, text = subprocess.getstatusoutput(f"{TENON} cat --flatten "
-                                                            f"{folder}/{asset}")
-                    self.assertEqual(code, 0, text)
-                    self.assertEqual("inputs:file" in text, name in self.GOOD)
+                    done = subprocess.run([TENON, "cat", "--flatten", f"{folder}/{asset}"],
+                                          capture_output=True, text=True, check=False)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual("inputs:file" in done.stdout, name in self.GOOD)
 
 
 class Kinds(unittest.TestCase):

@@ -9,6 +9,7 @@
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -160,10 +161,10 @@ class Diff(unittest.TestCase):
         (self.copy / "payloads/robot.usda").unlink()
         self.git("add", "-A")
         self.assertIn("Binary files", self.git("diff", "--cached", "part.usdc"))
-        self.git("config", "diff.usd.textconv", f"{TENON} cat")
+        self.git("config", "diff.usd.textconv", shlex.quote(str(TENON)) + " cat")
         text = self.git("diff", "--cached", "part.usdc")
         self.assertIn("+            float drive:angular:physics:stiffness = 0.07", text)
-        self.git("config", "diff.usd.command", f"{TENON} diff")
+        self.git("config", "diff.usd.command", shlex.quote(str(TENON)) + " diff")
         text = self.git("diff", "--cached", "--ext-diff")
         self.assertIn(f"tenon diff {PHYSICS}", text)
         self.assertIn("tenon diff part.usdc", text)

@@ -137,6 +137,8 @@ class Typed(unittest.TestCase):
             _, code, printed = self.run_in(folder, command)
             self.assertIn(code, (0, 1), f"{command}: {printed}")
         provoked, _, printed = self.run_in(folder, last)
+        if provoked[0] == "record" and "[browser.missing]" in printed and words not in printed:
+            self.skipTest("record asks for Chromium first, and there is none")
         self.assertIn(words, printed)
         told = next(line for line in printed.splitlines() if words in line)
         told = told[told.index(words):] if told.index(words) == 0 else told

@@ -10,6 +10,7 @@ on what it was given.
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -39,7 +40,8 @@ class Sweep(unittest.TestCase):
 
     def python(self, *options):
         """A python3 that knows no package, or those of a folder."""
-        script = self.put("python", f'#!/bin/sh\nexec {sys.executable} {" ".join(options)} "$@"\n')
+        command = shlex.join([sys.executable, *options])
+        script = self.put("python", f'#!/bin/sh\nexec {command} "$@"\n')
         script.chmod(0o755)
         return str(script)
 

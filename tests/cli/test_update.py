@@ -314,8 +314,9 @@ class Update(unittest.TestCase):
                 answer = self.convert(output, "--update")
                 self.assertNotEqual(answer["updated"]["files"], [])
                 self.assertEqual(self.value(asset, f"{b}.physics:mass"), 20)
-                code, text = subprocess.getstatusoutput(f"{TENON} cat --flatten {asset}")
-                self.assertIn("(5, 5, 9)", text)
+                flat = subprocess.run([TENON, "cat", "--flatten", asset], capture_output=True,
+                                      text=True, check=False)
+                self.assertIn("(5, 5, 9)", flat.stdout, flat.stderr)
 
     def test_without_a_base_it_says_so(self):
         for output, asset in self.places():
