@@ -143,7 +143,10 @@ chromium_is_there() {
 
 need_for_docs() { need_tool doxygen doxygen --version; }
 
-need_for_deb() { need_tool dpkg-dev dpkg-shlibdeps --version; }
+need_for_deb() {
+  need_tool dpkg-dev dpkg-shlibdeps --version
+  need_tool file file --version # CPack asks it what programs are
+}
 
 install_missing() {
   local root=()

@@ -52,7 +52,8 @@ def convert(source, target, *options):
     """-> exit code, rules of the findings, the answer."""
     code, out, _ = tenon("convert", source, target, "--json", *options)
     answer = json.loads(out)
-    rules = sorted(finding["rule"] for finding in answer["diagnostics"])
+    rules = sorted(finding["rule"] for finding in answer["diagnostics"]
+                   if finding["rule"] != "convert.self-collision")  # said of each URDF
     return code, rules, answer
 
 

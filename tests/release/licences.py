@@ -13,6 +13,7 @@ or no Debian.
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -23,6 +24,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 DOCUMENT = os.path.join(ROOT, "docs/dependencies.md")
 # Of the C library and the kernel only the interface is used, and not shipped.
 INTERFACES = re.compile(r"^(libc6|libc6-dev|linux-libc-dev|libcrypt-dev)$")
+SHARED = re.compile(r"\.so(\.[0-9]+)*$")
 FETCHED = re.compile(r"(?:build/_deps|tenon/engines)/([a-z]+)-[^/]*/")
 
 
@@ -37,12 +39,13 @@ def files_used(build):
     """Headers and libraries that stand outside of this project."""
     used = set()
     for line in lines_of("ninja", "-C", build, "-t", "deps"):
-        if line.startswith("    "):
+        # What libraries load themselves is in the lists of newer linkers.
+        if line.startswith("    ") and not SHARED.search(line.strip()):
             used.add(os.path.realpath(os.path.join(build, line.strip())))
     for program in ("bin/tenon", "all"):
         for line in lines_of("ninja", "-C", build, "-t", "commands", program):
-            for word in line.split():
-                if re.search(r"\.(a|so(\.[0-9]+)*)$", word) and os.path.isabs(word):
+            for word in shlex.split(line):
+                if (word.endswith(".a") or SHARED.search(word)) and os.path.isabs(word):
                     used.add(os.path.realpath(word))
     own = (ROOT + "/", os.path.realpath(build) + "/")
     return {path for path in used if not path.startswith(own) or FETCHED.search(path)}

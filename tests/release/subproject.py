@@ -12,6 +12,7 @@ usage: subproject.py. Exit 0: so it is; 1: what is not; 77: nothing was fetched 
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -51,8 +52,7 @@ target_link_libraries(app PRIVATE tenon::tenon)
 install(FILES app.cpp DESTINATION share)
 """
 # Stands in for python3 -m pip download: makes the wheel again of what lies in the folder unpacked.
-PIP = """#!{python}
-import os, sys, zipfile
+PIP = """import os, sys, zipfile
 words = sys.argv
 target = words[words.index("--dest") + 1]
 name = os.path.basename(words[words.index("-r") + 1]).split("-")[0]
@@ -112,8 +112,9 @@ def configure(folder):
                                                                   os.path.join(sources, part))
     write(os.path.join(parent, "CMakeLists.txt"), PARENT)
     write(os.path.join(parent, "app.cpp"), '#include "tenon/tenon.h"\nint main() {}\n')
-    python = os.path.join(folder, "python")
-    write(python, PIP.format(python=sys.executable, sources=fetched()), 0o755)
+    pip, python = os.path.join(folder, "pip.py"), os.path.join(folder, "python")
+    write(pip, PIP.format(sources=fetched()))
+    write(python, f'#!/bin/sh\nexec {shlex.join([sys.executable, pip])} "$@"\n', 0o755)
     before = files_below(sources)
     done = subprocess.run(["cmake", "-G", "Ninja", "-S", parent, "-B", build,
                            f"-DTENON_SOURCES={sources}", f"-DTENON_PYTHON={python}"],
