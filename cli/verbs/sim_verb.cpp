@@ -20,6 +20,7 @@
 #include "tenon/bake/write_log.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
+#include "tenon/base/text/text_number.h"
 
 namespace tenon::cli {
 namespace {
@@ -86,12 +87,20 @@ void print_not_mapped(const Json& items) {
 }
 
 std::string shown(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  if (value.is_string()) {
+    return value.get<std::string>();
+  }
+  std::string text;
+  for (const double number :
+       value.is_number() ? std::vector{value.get<double>()} : value.get<std::vector<double>>()) {
+    text += (text.empty() ? "" : ", ") + shortest(number);
+  }
+  return text;
 }
 
 /// What the steps were made with, a line each.
 void print_settings(const Json& settings) {
-  print("settings\n");
+  print("engine settings\n");
   for (const auto& [name, value] : settings.items()) {
     if (!value.is_object()) {
       print("  %-28s %s\n", name.c_str(), shown(value).c_str());
@@ -130,7 +139,7 @@ void print_state(const Json& state, bool verbose) {
         state["dt"].get<double>(), state["time"].get<double>(), rate.c_str(),
         state["unstable"].get<bool>() ? "  UNSTABLE" : "");
   if (verbose) {
-    print_settings(state["settings"]);
+    print_settings(state["engineSettings"]);
   }
   print("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
         state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());

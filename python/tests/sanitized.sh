@@ -11,7 +11,7 @@ tools=$(cat build/wheel/tools)
 folder=$PWD/build/python_sanitized
 PATH="$tools:$PATH" cmake -S python -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
   -DTENON_SANITIZED="$PWD/build/dev" -Dnanobind_DIR="$("$tools/python" -m nanobind --cmake_dir)" \
-  -DPython_EXECUTABLE="$tools/python" -DSKBUILD_SCRIPTS_DIR=bin >"$folder.log" ||
+  -DPython_EXECUTABLE="$tools/python" >"$folder.log" ||
   { tail "$folder.log"; exit 1; }
 PATH="$tools:$PATH" cmake --build "$folder/build" --target _tenon >>"$folder.log" ||
   { tail -n 30 "$folder.log"; exit 1; }

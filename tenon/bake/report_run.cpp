@@ -69,7 +69,7 @@ class RunReport {
     say_how_many(count, message);
     add(shakes ? "sim.joint-shakes" : "sim.beyond-limit", scene_.joints[worst->joint].path,
         std::move(message),
-        shakes ? "give a smaller --dt, or author a softer drive"
+        shakes ? "take a smaller time step, or author a softer drive"
                : "start within the limits, or look at what pushes the joint there");
   }
 

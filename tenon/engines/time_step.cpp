@@ -79,7 +79,7 @@ void report_spring_damping(const scene::PhysicsScene& scene, double time_step,
   finding.rule = rule;
   finding.prim = worst->joint->path.str();
   finding.say(message);
-  finding.fix = "give a smaller --dt, or author damping";
+  finding.fix = "author damping, or take a smaller time step";
   diagnostics.add(std::move(finding));
 }
 

@@ -362,7 +362,7 @@ class Settings(unittest.TestCase):
         for engine in ENGINES:
             with self.subTest(engine=engine):
                 words = ("sim", example, "--engine", engine, "--duration", "0.01")
-                settings = json.loads(run(*words, "--json").stdout)["settings"]
+                settings = json.loads(run(*words, "--json").stdout)["engineSettings"]
                 for name in ("integrator", "solver"):
                     self.assertIsInstance(settings[name], str)
                 self.assertTrue(any(name.lower().endswith("iterations") for name in settings))
@@ -373,7 +373,7 @@ class Settings(unittest.TestCase):
                         self.assertIn("  " + name, shown)
         settings = json.loads(run("sim", example, "--engine", "mujoco", "--duration", "0.01",
                                   "--integrator", "rk4", "--solver", "cg", "--iterations", "7",
-                                  "--json").stdout)["settings"]
+                                  "--json").stdout)["engineSettings"]
         self.assertEqual([settings[name] for name in ("integrator", "solver", "iterations")],
                          ["rk4", "cg", 7])
 
@@ -411,8 +411,8 @@ class SelfCollision(unittest.TestCase):
                         with self.subTest(words=words, output=output, engine=engine):
                             answer = json.loads(run("sim", asset, "--engine", engine, "--duration",
                                                     "0.01", "--json").stdout)
-                            self.assertEqual(list(answer["settings"]["selfCollision"].values()),
-                                             [on])
+                            said = answer["engineSettings"]["selfCollision"]
+                            self.assertEqual(list(said.values()), [on])
                             self.assertEqual(answer["contacts"] > 0, on)
 
 

@@ -67,7 +67,8 @@ class Security(unittest.TestCase):
     def test_paths(self):
         for name in ("../../../../etc/passwd", "..%2f..%2fetc/passwd", "/etc/passwd",
                      "....//etc/passwd", "%2e%2e/etc/passwd", "live.js/../../x", "live.js%00",
-                     urllib.parse.quote(str(ASSET)), "file:///etc/passwd", "\\etc\\passwd", "index.html", "a" * 2000):
+                     urllib.parse.quote(str(ASSET)), "file:///etc/passwd", "\\etc\\passwd",
+                     "index.html", "a" * 2000):
             status, _, body = self.viewer.get(name)
             self.assertEqual(status, 404, name)
             self.assertNotIn(b"root:", body)

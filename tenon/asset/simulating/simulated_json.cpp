@@ -119,7 +119,7 @@ Json simulated_json(const SimulatedAsset& s, bool timing) {
   if (timing) {
     state["realTimeFactor"] = s.wall_seconds > 0 ? s.run.time / s.wall_seconds : 0.0;
   }
-  state["settings"] = settings_json(s);
+  state["engineSettings"] = settings_json(s);
   state["unstable"] = s.unstable();
   state["bodies"] = bodies_json(s);
   state["joints"] = joints_json(s);

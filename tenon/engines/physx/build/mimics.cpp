@@ -31,9 +31,11 @@ double inertia_of(const JointMap& map) {
 }
 
 /// The coefficient of the follower in the tendon. With a leader's above 1, as of a hinge that turns
-/// many radians for each metre of its slide, a rigid tendon goes beyond what PhysX's floats hold.
+/// many radians for each metre of its slide, a rigid tendon goes beyond what PhysX's floats hold. A
+/// soft one keeps 1: what PhysX makes of its stiffness is not the same at other scales.
 double scale_of(const scene::Mimic& mimic) {
-  return 1 / std::max(1.0, std::fabs(mimic.multiplier));
+  const bool rigid = !(mimic.natural_frequency > 0);
+  return rigid ? 1 / std::max(1.0, std::fabs(mimic.multiplier)) : 1;
 }
 
 void set_stiffness(const scene::Mimic& mimic, const JointMap& follower, const JointMap& leader,
@@ -41,10 +43,8 @@ void set_stiffness(const scene::Mimic& mimic, const JointMap& follower, const Jo
   double stiffness = kRigidTendon;
   double damping = 0;
   if (mimic.natural_frequency > 0) {
-    const double scale = scale_of(mimic);
     const double inertia =
-        1 / (1 / inertia_of(follower) + mimic.multiplier * mimic.multiplier / inertia_of(leader)) /
-        (scale * scale);
+        1 / (1 / inertia_of(follower) + mimic.multiplier * mimic.multiplier / inertia_of(leader));
     stiffness = inertia * mimic.natural_frequency * mimic.natural_frequency;
     damping = 2 * mimic.damping_ratio * mimic.natural_frequency * inertia;
   }
