@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The command `tenon` of the wheel: becomes the program that lies in the package, without importing
-it. `tenon sweep` runs the Python that the package is installed for, unless TENON_PYTHON names one."""
+"""The command `tenon` of the wheel: becomes the program that lies in the package, without
+importing it. `tenon sweep` runs the Python that the package is installed for, unless TENON_PYTHON
+names another."""
 
 import os
 import sys
