@@ -79,7 +79,7 @@ EnergyDriftWatch::EnergyDriftWatch(const engines::Simulation& simulation,
     const Mat3d& moments = body.inertia;
     const double size = std::sqrt((moments[0][0] + moments[1][1] + moments[2][2]) /
                                   (2 * std::max(body.mass, 1e-9)));
-    moved_ += body.mass * length(scene.scenes[body.scene].gravity) * size;
+    moved_ += body.mass * length(simulation.gravity(body.scene)) * size;
   }
   moved_ = std::max(moved_, energy.kinetic);
 }

@@ -30,9 +30,10 @@ constexpr double kMostDamping = 0.5;
 
 constexpr double kLimitTime = 0.01;  // time constant of limits [s], and at least so many steps:
 constexpr double kLimitSteps = 5;
-// With 2 / time constant as its damping a limit takes 0.9 of the speed in a step; critically damped
-// it throws a joint back with 0.14 of it, since it pushes alone.
-constexpr double kLimitDamping = 2.2;  // steps
+// With 2 / this [s] as its damping a limit takes 0.9 of the speed in a step of 2 ms; critically
+// damped it throws a joint back with 0.14 of it, since it pushes alone. At least so many steps:
+constexpr double kLimitDamping = 0.0044;
+constexpr double kLimitDampingSteps = 2.2;
 constexpr std::array<double, mjNIMP> kLimitImpedance{0.99, 0.999, 0.001, 0.5, 2};
 
 }  // namespace
@@ -44,7 +45,7 @@ void soften_limit(double time_step, const scene::MujocoSoftness& authored, mjtNu
     std::copy(impedance.begin(), impedance.end(), solimp);
   };
   if (authored.solref_limit.empty() && authored.solimp_limit.empty()) {
-    const double damps = kLimitDamping * time_step;
+    const double damps = std::max(kLimitDamping, kLimitDampingSteps * time_step);
     const double period = std::max(kLimitTime, kLimitSteps * time_step);
     write(std::array{damps, period / damps}, kLimitImpedance);
     return;
