@@ -342,6 +342,22 @@ class EachEngine(unittest.TestCase):
                 for found, wanted in zip(answer["bodies"]["/World/box"]["position"], (0.5, 0, 2)):
                     self.assertAlmostEqual(found, wanted, delta=1e-3)
 
+    def test_a_lock_of_a_link_that_physx_ignores_takes_no_gravity(self):
+        """A hanging lever whose link asks for a locked axis: PhysX has locks of free bodies alone,
+        and what it ignores must not change how the lever swings."""
+        layer = scene(9.81, [
+            cube("load", "(1, 0, 0)", 0.1, (*BODY, "PhysxRigidBodyAPI"),
+                 ["float physics:mass = 1", "%s"]),
+            '    def PhysicsRevoluteJoint "swings" (prepend apiSchemas = '
+            '["PhysicsArticulationRootAPI"])\n    {\n'
+            "        rel physics:body1 = </World/load>\n"
+            '        uniform token physics:axis = "Y"\n'
+            "        point3f physics:localPos1 = (-1, 0, 0)\n    }\n"])
+        places = [self.simulate(layer % lock, "physx", "0.3")["bodies"]["/World/load"]["position"]
+                  for lock in ("", "int physxRigidBody:lockedPosAxis = 4")
+                  if "physx" in ENGINES]
+        self.assertEqual(places[:1], places[1:])
+
     def test_a_force_of_the_asset_is_no_energy_from_nowhere(self):
         layer = scene(0, [cube("box", "(0, 0, 2)", 0.1, (*BODY, "PhysxForceAPI"), [
             "float physics:mass = 1", "vector3f physxForce:force = (1000, 0, 0)",

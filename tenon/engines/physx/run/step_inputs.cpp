@@ -25,11 +25,11 @@ bool has_own_gravity(const scene::Body& body) {
   return body.gravity_scale != 0 && (scaled || body.settings.locked_translation != 0);
 }
 
-/// What the body is pulled by beside PhysX's gravity [m/s^2].
-Vec3d missing_gravity(const scene::Body& body, const Vec3d& gravity) {
+/// What the body is pulled by beside PhysX's gravity [m/s^2]; `locked` axes as a mask.
+Vec3d missing_gravity(const scene::Body& body, const Vec3d& gravity, int locked) {
   Vec3d wanted = gravity * body.gravity_scale;
   for (std::size_t i = 0; i < 3; ++i) {
-    wanted[i] = (body.settings.locked_translation >> i & 1) != 0 ? 0 : wanted[i];
+    wanted[i] = (locked >> i & 1) != 0 ? 0 : wanted[i];
   }
   return wanted - gravity;
 }
@@ -141,7 +141,9 @@ void StepInputs::push_bodies(const Model& model, const Steering& steering) {
     if (has_own_gravity(body)) {
       const Vec3d gravity = from_px(model.scenes[body.scene]->getGravity());
       const double mass = model.bodies[b]->getMass();
-      push(model, b, {missing_gravity(body, gravity) * mass, {}});
+      const int locked =
+          model.is_link(b) ? 0 : body.settings.locked_translation;  // as PhysX has it
+      push(model, b, {missing_gravity(body, gravity, locked) * mass, {}});
     }
   }
   for (const auto& [body, wrench] : steering.wrenches) {
