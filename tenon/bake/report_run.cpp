@@ -90,7 +90,7 @@ class RunReport {
       }
     }
     say_how_many(run_.fast_spins.size(), message);
-    add("sim.fast-spin", scene_.bodies[worst->body].path, std::move(message), kFinerSteps,
+    add("sim.fast-spin", scene_.bodies[worst->body].path, std::move(message), finer_steps(),
         worst->growth > kMuchGrowth ? Severity::Warning : Severity::Info);
   }
 
@@ -104,13 +104,16 @@ class RunReport {
             (change < 0 ? "lost" : "gained") + ", " +
             digits(100 * std::fabs(change) / run_.drift->moved) +
             " % of the largest kinetic energy",
-        kFinerSteps,
+        finer_steps(),
         std::fabs(change) > kMuchDrift * run_.drift->moved ? Severity::Warning : Severity::Info);
   }
 
  private:
-  static constexpr const char* kFinerSteps =
-      "give a smaller --dt, or --engine mujoco --integrator rk4";
+  /// Several engines are run by `compare`, which has no option for the integrator.
+  const char* finer_steps() const {
+    return engine_.empty() ? "give a smaller --dt, or --engine mujoco --integrator rk4"
+                           : "give a smaller --dt to all engines";
+  }
 
   static void say_how_many(std::size_t count, Message& message) {
     if (count > 1) {

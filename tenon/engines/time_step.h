@@ -16,8 +16,8 @@ double choose_time_step(const scene::PhysicsScene& scene, const SimulationOption
                         std::string_view engine, std::string_view rule, Diagnostics& diagnostics);
 
 /// On engines whose drives pull to where the step ends: an info about the drive whose spring k the
-/// step damps most, where k dt is more than the authored damping. Arguments as
-/// above; the others are related.
+/// step damps most, where k dt is more than the authored damping. Arguments as above; the others
+/// are related.
 void report_spring_damping(const scene::PhysicsScene& scene, double time_step,
                            std::string_view engine, std::string_view rule,
                            Diagnostics& diagnostics);
