@@ -190,6 +190,6 @@ function(tenon_unit_tests library tests)
   gtest_discover_tests(
     ${library}_test
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS unit TIMEOUT 300)
+    DISCOVERY_TIMEOUT 300
+    PROPERTIES LABELS unit TIMEOUT 900)
 endfunction()
