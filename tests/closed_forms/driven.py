@@ -391,9 +391,56 @@ def joint_speeds():
         )
 
 
+def finger(links, stiffness, damping, target, most, articulated):
+    """Light links in a row, each on a drive of its own; L0 to begin with hangs on the world."""
+    parts = [drive("angular", "force", stiffness, damping, target, max_force=most)]
+    prims = []
+    for i in range(links):
+        prims.append(
+            body(
+                f"L{i}",
+                (0.02 + 0.04 * i, 0, 3),
+                collides=False,
+                mass=0.02,
+                inertia=(2e-6,) * 3,
+            )
+        )
+        before = f"/World/L{i - 1}" if i else None
+        start = (0.02, 0, 0) if i else (0, 0, 3)
+        prims.append(
+            joint(
+                "revolute",
+                f"J{i}",
+                before,
+                f"/World/L{i}",
+                start,
+                (-0.02, 0, 0),
+                axis="Y",
+                limits=(-90, 90),
+                parts=parts,
+            )
+        )
+    return scene(*prims, gravity=WEIGHTLESS, articulated=articulated)
+
+
+def fingers():
+    """Drives that are stiff against the inertia of their links reach their targets and stay."""
+    for links in (1, 2, 3, 5):
+        for stiffness, most in ((1.0, 1.4), (5.0, 1.4), (5.0, None), (50.0, 0.5)):
+            limit_words = "without a limit" if most is None else f"at most {most:g} N m"
+            yield Form(
+                f"finger_{links}_{stiffness:g}_{most or 'any'}",
+                f"{links} light links on drives of {stiffness:g} N m/degree, {limit_words}",
+                finger(links, stiffness, stiffness / 30, 20.0, most, articulated=True),
+                1.0,
+                tuple(coordinate(1.0, 20, 0.3, f"J{i}") for i in range(links)),
+            )
+
+
 KINDS = {
     "drives: sag": (sags,),
     "drives: step response": (steps, steps_of_others),
+    "drives: stiff and light": (fingers,),
     "drives: speed": (velocities,),
     "drives: largest force": (saturations,),
     "settings of joints": (joint_settings, joint_speeds),

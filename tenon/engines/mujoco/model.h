@@ -81,6 +81,7 @@ struct DriveMap {
   bool is_plain = false;
   int velocity_control = -1;
   int dof = -1;
+  int tendon = -1;  ///< of the joint alone, whose friction is the drive (run/coupled_drives.h)
 };
 
 /// Which geoms may touch, for scenes that bits and excluded body pairs cannot express.
@@ -134,7 +135,8 @@ struct ModelMaps {
   Surfaces surfaces;
   bool curved_shapes = false;  ///< see build/touching.h
   std::vector<NotMapped> not_mapped;
-  std::vector<int> auxiliary_bodies;  ///< MuJoCo bodies whose weights compile() has set
+  std::vector<int> auxiliary_bodies;        ///< MuJoCo bodies whose weights compile() has set
+  std::vector<std::size_t> coupled_drives;  ///< into `drives`: those with a tendon
 };
 
 struct Model : ModelMaps {

@@ -20,6 +20,7 @@
 #include "tenon/engines/mujoco/run/advance.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
 #include "tenon/engines/mujoco/run/control.h"
+#include "tenon/engines/mujoco/run/coupled_drives.h"
 #include "tenon/engines/mujoco/run/read_state.h"
 #include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/watches/passage_watch.h"
@@ -198,7 +199,7 @@ Result<void> MujocoSimulation::rebuild(Restart restart) {
     connect();
     TENON_CHECK(apply_steering());
     const FilterScope filter(model_.filter);
-    return guarded([&] { mj_forward(model_.model.get(), model_.data.get()); });
+    return guarded([&] { forward(model_); });
   });
 }
 

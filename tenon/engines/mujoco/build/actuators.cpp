@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <cmath>
-
-#include "tenon/engines/mujoco/build/build.h"
-
+//
 // A drive is MuJoCo's PID actuator without the I: inputs position and velocity target, force
 // k (x* - q) + d (v* - v) clamped as one to +-max_force (S-102). Gains of acceleration drives are
 // multiplied by the effective inertia before each step (S-104), so here they stand unscaled.
@@ -13,6 +9,16 @@
 // k u - k q - d v is the same as long as v* = 0. Where v* is something else, a second actuator
 // d u - d v is added to k u - k q, and the joint clamps their sum. A drive that has an effort but
 // no gains is the limit of its joint: a controller of that robot finds it there.
+//
+// A drive that may be stiff gets a tendon, too, by which it can be solved with constraints
+// (run/coupled_drives.h); compile() decides.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "tenon/engines/mujoco/build/build.h"
+
 namespace tenon::engines::mujoco {
 namespace {
 
@@ -94,9 +100,42 @@ bool is_animated(const scene::PhysicsScene& scene, scene::Index joint, std::size
   return false;
 }
 
+/// Of one body of a joint alone, along or about an axis at the joint [kg or kg m^2].
+double own_inertia(const scene::Body& body, const Pose& frame, scene::Dof dof) {
+  if (!is_angular(dof)) {
+    return body.mass;
+  }
+  const Vec3d axis = rotate(frame.orientation, unit_axis(static_cast<scene::Axis>(axis_of(dof))));
+  const Vec3d off = cross(axis, body.center_of_mass - frame.position);
+  return dot(axis, axis * body.inertia) + body.mass * dot(off, off);
+}
+
+/// Whether a drive may turn out to be stiff (compile()), once it is known what its joint moves:
+/// less than one body alone, where the others give way.
+bool may_be_stiff(const Build& build, const scene::Joint& joint, const scene::Drive& drive) {
+  constexpr double kSure = 0.05;
+  const double implicit = (drive.damping + drive.stiffness * build.time_step) * build.time_step;
+  double least = drive.acceleration ? 1 : scene::kUnlimited;
+  for (const auto& [body, frame] :
+       {std::pair(joint.body0, joint.frame0), std::pair(joint.body1, joint.frame1)}) {
+    if (body && !drive.acceleration) {
+      least = std::min(least, own_inertia(build.scene.bodies[*body], frame, drive.dof));
+    }
+  }
+  return implicit > kSure * (least + (drive.acceleration ? 0 : joint.armature));
+}
+
+mjsTendon* add_drive_tendon(Build& build, const mjsActuator& actuator) {
+  mjsTendon* tendon = mjs_addTendon(build.spec.get(), nullptr);
+  mjs_setName(tendon->element, mjs_getString(mjs_getName(actuator.element)));
+  mjs_wrapJoint(tendon, mjs_getString(actuator.target), 1);
+  return tendon;
+}
+
 }  // namespace
 
 void add_actuators(Build& build) {
+  build.drive_tendons.assign(build.scene.joints.size(), {});
   build.actuators.assign(build.scene.joints.size(), {});
   build.velocity_actuators.assign(build.scene.joints.size(), {});
   for (scene::Index j = 0; j < build.scene.joints.size(); ++j) {
@@ -105,6 +144,7 @@ void add_actuators(Build& build) {
       const scene::Drive& drive = joint.drives[i];
       build.actuators[j].push_back(nullptr);
       build.velocity_actuators[j].push_back(nullptr);
+      build.drive_tendons[j].push_back(nullptr);
       const bool acts =
           drive.stiffness != 0 || drive.damping != 0 || is_animated(build.scene, j, i);
       mjsJoint* target = scalar_joint(build, j, drive.dof);
@@ -122,6 +162,9 @@ void add_actuators(Build& build) {
         build.velocity_actuators[j].back() = beside;
       } else if (target != nullptr) {
         build.actuators[j].back() = add_drive(build, joint, drive, target);
+        build.drive_tendons[j].back() = may_be_stiff(build, joint, drive)
+                                            ? add_drive_tendon(build, *build.actuators[j].back())
+                                            : nullptr;
       } else {
         build.report(drive.source.empty() ? joint.path : drive.source,
                      "drive:" + std::string(dof_name(drive.dof)),

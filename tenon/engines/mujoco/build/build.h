@@ -73,6 +73,9 @@ struct Build {
   std::vector<std::vector<mjsActuator*>> actuators;  ///< (joint_count), one per drive or nullptr
   /// (joint_count) beside them, for target velocities, of text; one per drive or nullptr.
   std::vector<std::vector<mjsActuator*>> velocity_actuators;
+  /// (joint_count) tendons for drives that may be solved with constraints; one per drive or
+  /// nullptr.
+  std::vector<std::vector<mjsTendon*>> drive_tendons;
   std::vector<AuxiliaryBody> auxiliary_bodies;
   std::vector<SoftBound> soft_bounds;
   std::vector<NotMapped> not_mapped;

@@ -16,13 +16,15 @@
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/run/coupled_drives.h"
 #include "tenon/engines/start_coordinates.h"
 
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr double kStiffDrive =
-    0.5;  // stiffness dt^2 / inertia above which the step must be implicit
+// Above these a step must be implicit:
+constexpr double kStiffSpring = 0.5;  // stiffness dt^2 / inertia
+constexpr double kStiffDrive = 1;     // and damping dt / inertia with it
 constexpr double kFarInAStep = 0.02;  // [rad or m] with the largest force
 
 Error rejected(mjSpec* spec) {
@@ -94,6 +96,9 @@ void map_drives(const Build& build, Model& result) {
         map.actuator = mjs_getId(actuator->element);
         map.control = m.actuator_ctrladr[map.actuator];
         map.dof = m.jnt_dofadr[m.actuator_trnid[std::ptrdiff_t{2} * map.actuator]];
+      }
+      if (const mjsTendon* tendon = build.drive_tendons[j][i]; tendon != nullptr) {
+        map.tendon = mjs_getId(tendon->element);
       }
       result.drives.push_back(map);
     }
@@ -237,29 +242,9 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
   }
 }
 
-bool has_mimics(const scene::PhysicsScene& scene) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(),
-                     [](const scene::Joint& joint) { return !joint.mimics.empty(); });
-}
-
-/// Whether steps that are implicit in velocity alone are too coarse for a drive: its spring is
-/// stiff even with its damper, or it begins at its largest force, where the damper does not act,
-/// and a step with that goes far. Followers of mimics lag behind less with the other steps, too.
-bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
+bool begins_at_its_largest_force(const Build& build, const Model& result, const DriveMap& map) {
   const scene::Joint& joint = build.scene.joints[map.joint];
   const scene::Drive& drive = joint.drives[map.drive];
-  const double step = build.time_step;
-  const double per_inertia = drive.acceleration ? 1 : result.model->dof_invweight0[map.dof];
-  const double spring = drive.stiffness * step * step * per_inertia;
-  if (!(spring > kStiffDrive)) {
-    return false;
-  }
-  if (has_mimics(build.scene) || spring > kStiffDrive * (1 + drive.damping * step * per_inertia)) {
-    return true;
-  }
-  if (!(drive.max_force * step * step * per_inertia > kFarInAStep)) {
-    return false;
-  }
   Diagnostics silent;
   const scene::JointDofs& dofs = result.joints[map.joint].dofs;
   const std::vector<double> start = start_coordinates(build.scene, joint, dofs, silent);
@@ -271,11 +256,25 @@ bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
   return false;
 }
 
+/// Whether steps that are implicit in velocity alone are too coarse for a drive: its spring or its
+/// damper is stiff against the inertia, so that loops, limits and contacts would have to hold a
+/// force of which the damper leaves little, or it begins at its largest force, where the damper
+/// does not act, and a step with that goes far.
+bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
+  const scene::Drive& drive = build.scene.joints[map.joint].drives[map.drive];
+  const double step = build.time_step;
+  const double per_inertia = drive.acceleration ? 1 : result.model->dof_invweight0[map.dof];
+  const double spring = drive.stiffness * step * step * per_inertia;
+  return spring + drive.damping * step * per_inertia > kStiffDrive ||
+         (spring > kStiffSpring && drive.max_force * step * step * per_inertia > kFarInAStep &&
+          begins_at_its_largest_force(build, result, map));
+}
+
 /// The first joint with a drive or a spring that is stiff against its inertia and the step.
 std::optional<scene::Index> stiff_joint(const Build& build, const Model& result) {
   const mjModel& m = *result.model;
   for (const DriveMap& map : result.drives) {
-    if (map.actuator >= 0 && is_stiff(build, result, map)) {
+    if (map.actuator >= 0 && map.tendon < 0 && is_stiff(build, result, map)) {
       return map.joint;
     }
   }
@@ -286,12 +285,60 @@ std::optional<scene::Index> stiff_joint(const Build& build, const Model& result)
       dofs.push_back(result.joints[j].ball_dof);
     }
     for (const int dof : dofs) {
-      if (m.jnt_stiffness[m.dof_jntid[dof]] * squared_step * m.dof_invweight0[dof] > kStiffDrive) {
+      if (m.jnt_stiffness[m.dof_jntid[dof]] * squared_step * m.dof_invweight0[dof] > kStiffSpring) {
         return j;
       }
     }
   }
   return std::nullopt;
+}
+
+/// Neither the asset nor the user asks for an integrator.
+bool is_free_to_choose(const Build& build) {
+  const auto& settings = build.scene.scenes.front().parts.mujoco;
+  const bool authored = settings && std::any_of(settings->begin(), settings->end(), [](auto& each) {
+                          return each.name == "option:integrator";
+                        });
+  return !authored && build.methods.integrator == Integrator::Default &&
+         build.drive_terms == DriveTerms::Engine;
+}
+
+/// Drives that are stiff are solved with constraints, where the method can.
+void couple_drives(const Build& build, Model& result) {
+  mjModel& m = *result.model;
+  const bool possible = is_free_to_choose(build) && m.opt.solver != mjSOL_PGS;
+  for (std::size_t i = 0; i < result.drives.size(); ++i) {
+    DriveMap& map = result.drives[i];
+    if (map.tendon < 0) {
+      continue;
+    }
+    if (possible && is_stiff(build, result, map)) {
+      couple_drive(map, m);
+      result.coupled_drives.push_back(i);
+    } else {
+      map.tendon = -1;
+    }
+  }
+  if (result.coupled_drives.empty()) {
+    return;
+  }
+  Diagnostic told;
+  told.severity = Severity::Info;
+  told.rule = "mujoco.coupled-drive";
+  told.prim = build.scene.joints[result.drives[result.coupled_drives.front()].joint].path.str();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the drive is stiff for steps of %.4g s; MuJoCo takes it where the step ends, "
+                "together with the constraints",
+                build.time_step);
+  Message message = text;
+  for (std::size_t i = 1; i < result.coupled_drives.size(); ++i) {
+    message.about(build.scene.joints[result.drives[result.coupled_drives[i]].joint].path,
+                  RelatedRole::Joint);
+  }
+  told.say(message);
+  told.fix = "--integrator implicitfast leaves them to MuJoCo's own actuators";
+  build.diagnostics.add(std::move(told));
 }
 
 // Implicit in velocity is enough for damping; drives that are stiff against their inertia need the
@@ -302,12 +349,8 @@ void choose_integrator(const Build& build, Model& result) {
     m.opt.integrator = mjINT_EULER;  // damping of joints stays implicit, drives are not
     return;
   }
-  const auto& settings = build.scene.scenes.front().parts.mujoco;
-  const bool authored = settings && std::any_of(settings->begin(), settings->end(), [](auto& each) {
-                          return each.name == "option:integrator";
-                        });
-  if (authored || build.methods.integrator != Integrator::Default) {
-    return;  // as the asset or the user asks
+  if (!is_free_to_choose(build)) {
+    return;
   }
   if (const std::optional<scene::Index> stiff = stiff_joint(build, result)) {
     m.opt.integrator = mjINT_DISCRETE;
@@ -355,6 +398,9 @@ Result<Model> compile(Build& build) {
   set_mean_inertia(build, result);
   stiffen_auxiliary_welds(build, result);
   soften_bounds(build, *model);
+  if (build.purpose == Purpose::Run) {
+    couple_drives(build, result);
+  }
   choose_integrator(build, result);
   return result;
 }

@@ -11,6 +11,7 @@
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/run/coupled_drives.h"
 #include "tenon/engines/start_coordinates.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/motion/fit_velocities.h"
@@ -176,10 +177,8 @@ Result<void> set_initial_state(const PhysicsScene& scene, Begin begin, Model& mo
   TENON_CHECK(set_velocities(scene, begin, model, diagnostics));
   set_controls(scene, model);
   set_other_gravities(scene, model);
-  mjModel* m = model.model.get();
-  mjData* d = model.data.get();
   const FilterScope filter(model.filter);
-  return guarded([&] { mj_forward(m, d); });
+  return guarded([&] { forward(model); });
 }
 
 }  // namespace tenon::engines::mujoco

@@ -15,6 +15,7 @@
 #include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
+#include "tenon/engines/mujoco/run/coupled_drives.h"
 #include "tenon/engines/mujoco/run/runge_kutta.h"
 
 namespace tenon::engines::mujoco {
@@ -55,6 +56,13 @@ void finish_late(Model& model) {
     mj_projectConstraint(m, d);
     mj_referenceConstraint(m, d);
   }
+}
+
+// mj_step2, with drives that are solved with constraints.
+void end_step(Model& model) {
+  write_coupled_drives(model);
+  mj_step2(model.model.get(), model.data.get());
+  read_coupled_drives(model);
 }
 
 bool may_sleep(const Model& model) { return (model.model->opt.enableflags & mjENBL_SLEEP) != 0; }
@@ -125,13 +133,16 @@ bool steps_by_euler_instead(const Model& model) {
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (!finishes_contacts(model) ||
-      (is_evaluated_by_mujoco(model) && !steps_by_euler_instead(model))) {
+  if (!finishes_contacts(model) && !model.coupled_drives.empty()) {
+    mj_step1(m, d);
+    end_step(model);
+  } else if (!finishes_contacts(model) ||
+             (is_evaluated_by_mujoco(model) && !steps_by_euler_instead(model))) {
     mj_step(m, d);
   } else if (may_sleep(model)) {
     mj_step1(m, d);
     finish_late(model);
-    mj_step2(m, d);
+    end_step(model);
   } else {
     mj_checkPos(m, d);
     mj_checkVel(m, d);
@@ -139,7 +150,7 @@ void advance(Model& model) {
       step_runge_kutta(model, [&model] { derive_forces(model); });
     } else {
       derive_forces(model);
-      mj_step2(m, d);
+      end_step(model);
     }
   }
 }

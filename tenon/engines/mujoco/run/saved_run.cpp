@@ -7,6 +7,7 @@
 
 #include "tenon/engines/mujoco/contact_filter.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/mujoco/run/coupled_drives.h"
 
 namespace tenon::engines::mujoco {
 
@@ -49,7 +50,7 @@ Result<void> write_state(const Model& model, const std::vector<double>& state,
   return guarded([&] {
     mj_setState(m, d, state.data(), mjSTATE_INTEGRATION);
     std::copy(asleep.begin(), asleep.end(), d->tree_asleep);
-    mj_forward(m, d);
+    forward(model);
     mj_setState(m, d, state.data(), mjSTATE_INTEGRATION);
     std::copy(asleep.begin(), asleep.end(), d->tree_asleep);
   });
