@@ -8,7 +8,8 @@
 // the largest pull of its drive along its way; a drive towards a speed v with damping d at most
 // d v^2 / 4 in each second, or its largest force times v; forces that were set, force times speed;
 // bodies that follow poses and surfaces that carry give what they touch at most twice their speed.
-// Limits, loops and dampers give nothing.
+// Limits, loops and dampers give nothing, except where a joint begins outside of its limits: there
+// they stretch its drive.
 #include "tenon/engines/watches/energy_bound.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 
 #include "tenon/engines/applied_forces.h"
 #include "tenon/engines/drive_values.h"
+#include "tenon/engines/watches/spring_energy.h"
 #include "tenon/scene/joint_dofs.h"
 
 namespace tenon::engines {
@@ -71,13 +73,6 @@ std::vector<Index> roots_of(const PhysicsScene& scene) {
     }
   }
   return root;
-}
-
-/// Of a spring whose force is at most `most` [J].
-double stored_in(double stiffness, double stretch, double most) {
-  stretch = std::fabs(stretch);
-  return stiffness * stretch <= most ? stiffness * stretch * stretch / 2
-                                     : most * stretch - most * most / (2 * stiffness);
 }
 
 double kinetic(const scene::Body& body, const BodyState& state) {
@@ -210,7 +205,7 @@ void EnergyBound::list_drives(const PhysicsScene& scene) {
       if (at == dofs.free.end()) {
         continue;
       }
-      Driven driven{j, d, static_cast<std::size_t>(at - dofs.free.begin())};
+      Driven driven{j, d, static_cast<std::size_t>(at - dofs.free.begin()), at->lower, at->upper};
       if (joint.drives[d].acceleration) {
         driven.inertia = mass_ * (is_angular(joint.drives[d].dof) ? extent_ * extent_ : 1);
       }
@@ -246,7 +241,7 @@ void EnergyBound::set_baseline(const Simulation& simulation, const PhysicsScene&
   extent_ = mass_ > 0 ? length(high - low) : 0;
   list_drives(scene);
   look(simulation, scene, steering, 0);
-  given_ = carried_ = 0;
+  carried_ = 0;
   const Energy energy = simulation.energy();
   scale_ += energy.kinetic + stored_ + other_springs(simulation, scene, extent_);
   lowest_ = highest_ = energy.potential;
@@ -284,7 +279,11 @@ void EnergyBound::look_at_drives(const Simulation& simulation, const PhysicsScen
                     : 0;
       const double speed = std::fabs(drive.target_velocity);
       given_ += span * std::min(drive.damping * driven.inertia * speed * speed / 4, most * speed);
-      const double stored = stiffness > 0 ? stored_in(stiffness, stretch, most) : 0;
+      const DriveSpring spring{driven.target, stiffness, most};
+      const double stored = stiffness > 0 ? spring.energy_at(position) : 0;
+      if (span == 0 && stiffness > 0) {  // the start
+        given_ += spring.given_by_limit(position, driven.lower, driven.upper);
+      }
       if (drive.acceleration) {  // at most so much, so it counts only when it is let go
         given_ += std::max(driven.stored - stored, 0.0);
       } else {

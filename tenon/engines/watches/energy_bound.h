@@ -36,7 +36,9 @@ class EnergyBound {
     scene::Index joint = 0;
     scene::Index drive = 0;
     std::size_t coordinate = 0;  ///< into JointState
-    double inertia = 1;          ///< of drives by acceleration: at most what it moves [kg, kg m^2]
+    double lower = 0;            ///< of the coordinate [m or rad]
+    double upper = 0;
+    double inertia = 1;  ///< of drives by acceleration: at most what it moves [kg, kg m^2]
     double target = 0;
     double moved = 0;   ///< length of the way of the target [m or rad]
     double pull = 0;    ///< force at the last look [N or N m]

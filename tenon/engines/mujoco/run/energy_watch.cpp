@@ -89,15 +89,6 @@ int fastest_body(const Model& model) {
 
 }  // namespace
 
-// The force is held at its largest beyond a stretch.
-double EnergyWatch::Spring::energy_at(double position) const {
-  const double stretch = std::fabs(position - target);
-  if (stiffness * stretch <= max_force) {
-    return stiffness * stretch * stretch / 2;
-  }
-  return max_force * stretch - max_force * max_force / (2 * stiffness);
-}
-
 EnergyWatch::EnergyWatch(const scene::PhysicsScene& scene, const Model& model) {
   const mjModel& m = *model.model;
   velocity_.assign(static_cast<std::size_t>(m.nv), 0);
@@ -139,8 +130,11 @@ void EnergyWatch::read_springs(const Model& model) {
     const double most = m.actuator_forcelimited[map.actuator] != 0
                             ? m.actuator_forcerange[2 * map.actuator + 1]
                             : scene::kUnlimited;
-    springs_.push_back({map.actuator, map.control, m.jnt_qposadr[m.dof_jntid[map.dof]], map.dof,
-                        d.ctrl[map.control], stiffness, most});
+    springs_.push_back({map.actuator,
+                        map.control,
+                        m.jnt_qposadr[m.dof_jntid[map.dof]],
+                        map.dof,
+                        {d.ctrl[map.control], stiffness, most}});
   }
   only_springs_ = springs_.size() == static_cast<std::size_t>(m.nu);
   controls_.assign(d.ctrl, d.ctrl + m.nu);
@@ -161,11 +155,11 @@ void EnergyWatch::begin(const Model& model, bool pushed) {
 void EnergyWatch::follow_targets(const Model& model) {
   const mjData& d = *model.data;
   for (Spring& spring : springs_) {
-    if (d.ctrl[spring.control] != spring.target) {
+    if (d.ctrl[spring.control] != spring.drive.target) {
       const double position = d.qpos[spring.qpos];
-      const double before = spring.energy_at(position);
-      spring.target = d.ctrl[spring.control];
-      give(spring.energy_at(position) - before);
+      const double before = spring.drive.energy_at(position);
+      spring.drive.target = d.ctrl[spring.control];
+      give(spring.drive.energy_at(position) - before);
     }
     if (d.ctrl[spring.control + 1] != 0) {
       fresh_ = true;  // from now on a drive of velocity
@@ -198,7 +192,13 @@ void EnergyWatch::set_baseline(const Model& model) {
   const double kinetic = kinetic_energy(model, velocity_.data());
   double stretched = 0;
   for (const Spring& spring : springs_) {
-    stretched += spring.energy_at(d.actuator_length[spring.actuator]);
+    const double position = d.actuator_length[spring.actuator];
+    stretched += spring.drive.energy_at(position);
+    const int joint = m.dof_jntid[spring.dof];
+    if (m.jnt_limited[joint] != 0) {
+      const double* range = m.jnt_range + std::ptrdiff_t{2} * joint;
+      give(spring.drive.given_by_limit(position, range[0], range[1]));
+    }
   }
   scale_ = kinetic + stretched;
   for (int b = 1; b < m.nbody; ++b) {
@@ -337,7 +337,7 @@ std::optional<EnergyWatch::Growth> EnergyWatch::judge(const Model& model) {
   highest_ = std::max(highest_, potential);
   double energy = kinetic + potential;
   for (const Spring& spring : springs_) {
-    energy += spring.energy_at(d.actuator_length[spring.actuator]);
+    energy += spring.drive.energy_at(d.actuator_length[spring.actuator]);
   }
   // What limits feed and contacts take at once moves nothing: the energy itself has to have grown.
   const double grown = energy - start_;

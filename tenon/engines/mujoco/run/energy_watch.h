@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/watches/spring_energy.h"
 
 namespace tenon::engines::mujoco {
 
@@ -37,10 +38,7 @@ class EnergyWatch {
     int control = 0;  ///< of its position target; that of its velocity comes next
     int qpos = 0;
     int dof = 0;
-    double target = 0;
-    double stiffness = 0;
-    double max_force = 0;
-    double energy_at(double position) const;
+    DriveSpring drive;
   };
   void give(double work);
   void read_springs(const Model& model);
