@@ -59,6 +59,21 @@ def mutants(name, program, start, more=()):
         "bench", ["tenon_mutants"])
 
 
+def judgements_of_engines():
+    yield Judgement("closed_forms", ["{python}", "-B", "tests/closed_forms/closed_forms.py",
+                                     "build/release/bin/tenon", "docs/closed-forms.md",
+                                     "tests/closed_forms/known_misses.txt"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("robots_per_engine", ["{python}", "-B",
+                                          "tests/engines_beside/robots_per_engine.py", ".",
+                                          "build/release/bin/tenon", "docs/robots-per-engine.md"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("robots_hold", ["{python}", "-B", "tests/engines_beside/robots_hold.py", ".",
+                                    "build/release/bin/tenon", "docs/robots-hold.md",
+                                    "tests/engines_beside/robots_hold_misses.txt"],
+                    "release", ["tenon_cli", "tenon_worker"])
+
+
 def judgements_of_pages_and_python():
     # tests/browser/run.mjs --list names the tests; they run by name too.
     yield Judgement("browser", ["node", "tests/browser/run.mjs", "{packages}", ".",
@@ -149,14 +164,7 @@ def judgements():
                                   "build/release/bin/tenon", "docs/beside-other-engines.md"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/engines_beside/requirements-ovphysx.txt")
-    yield Judgement("closed_forms", ["{python}", "-B", "tests/closed_forms/closed_forms.py",
-                                     "build/release/bin/tenon", "docs/closed-forms.md",
-                                     "tests/closed_forms/known_misses.txt"],
-                    "release", ["tenon_cli", "tenon_worker"])
-    yield Judgement("robots_per_engine", ["{python}", "-B",
-                                          "tests/engines_beside/robots_per_engine.py", ".",
-                                          "build/release/bin/tenon", "docs/robots-per-engine.md"],
-                    "release", ["tenon_cli", "tenon_worker"])
+    yield from judgements_of_engines()
     yield from judgements_of_pages_and_python()
     yield from fuzzers()
 

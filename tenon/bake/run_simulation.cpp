@@ -163,9 +163,9 @@ class Runner {
         options_(options),
         run_(run),
         recorder_(simulation, scene, options, run.recording),
-        joints_(simulation, scene),
-        spins_(simulation, scene),
-        energy_(simulation, scene) {
+        watches_(
+            simulation, scene,
+            options.commands == nullptr ? watches::Steering::None : watches::Steering::Commands) {
     if (options.commands != nullptr) {
       commands_.emplace(*options.commands, scene, simulation);
     }
@@ -185,9 +185,7 @@ class Runner {
       }
       TENON_CHECK(one_step(step));
     }
-    run_.joint_faults = joints_.faults();
-    run_.fast_spins = spins_.fast();
-    run_.drift = options_.commands == nullptr ? energy_.drift() : std::nullopt;
+    run_.faults = watches_.faults();
     return recorder_.finish();
   }
 
@@ -203,9 +201,7 @@ class Runner {
     }
     recorder_.before_step(step);
     TENON_CHECK(simulation_.step());
-    joints_.after_step();
-    spins_.after_step();
-    energy_.after_step();
+    watches_.after_step();
     TENON_CHECK(recorder_.after_step());
     ++run_.steps;
     run_.time = simulation_.time();
@@ -219,9 +215,7 @@ class Runner {
   const RunOptions& options_;
   Run& run_;
   Recorder recorder_;
-  JointWatch joints_;
-  SpinWatch spins_;
-  EnergyDriftWatch energy_;
+  watches::RunWatches watches_;
   std::optional<CommandPlayer> commands_;
   std::optional<RestWatch> rest_;
 };

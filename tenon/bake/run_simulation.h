@@ -8,13 +8,11 @@
 #include "tenon/bake/commands/commands.h"
 #include "tenon/bake/rest.h"
 #include "tenon/bake/state_recording.h"
-#include "tenon/bake/watches/energy_drift.h"
-#include "tenon/bake/watches/joint_watch.h"
-#include "tenon/bake/watches/spin_watch.h"
 #include "tenon/base/error.h"
 #include "tenon/base/function.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
+#include "tenon/watches/run_watches.h"
 
 namespace tenon::bake {
 
@@ -37,12 +35,10 @@ struct Run {
   engines::Energy initial_energy;
   engines::Energy final_energy;
   bool interrupted = false;
-  std::optional<double> rest_since;        ///< [s]; everything rested from then to the end
-  std::vector<engines::Event> events{};    ///< those of the simulation
-  std::vector<JointFault> joint_faults{};  ///< this and what follows: of a run that did not fail
-  std::vector<FastSpin> fast_spins{};
-  std::optional<EnergyDrift> drift;
-  std::optional<Error> failure;  ///< why the run ended early: unstable, for example
+  std::optional<double> rest_since;      ///< [s]; everything rested from then to the end
+  std::vector<engines::Event> events{};  ///< those of the simulation
+  watches::RunFaults faults{};           ///< of a run that did not fail
+  std::optional<Error> failure;          ///< why the run ended early: unstable, for example
 };
 
 /// Steps the simulation for the duration and records frames at the given rate. A frame between two

@@ -72,6 +72,9 @@ class World {
   /// (simulation.output-off).
   Result<std::vector<SensorReading>> sensors() const;
 
+  /// What the World holds; it lives as long, also where the World is moved.
+  const Simulation& simulation() const { return *simulation_; }
+
  private:
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Sensors> sensors_;  ///< null: off

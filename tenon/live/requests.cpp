@@ -98,6 +98,7 @@ Result<Json> set_drive(State& state, ClientNumber, const Asked& asked, Outbox&) 
   target.velocity = asked.number("velocity", target.velocity);
   TENON_CHECK(world->set_drive_target(index, drive, target));
   state.targets[key] = target;
+  state.act();
   return Json{{"position", target.position}, {"velocity", target.velocity}};
 }
 
@@ -115,6 +116,7 @@ Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox& o
     return refused("the joint has " + std::to_string(count) + " coordinates", "give as many");
   }
   TENON_CHECK(move_joint(state.asset, index, wanted));
+  state.act();
   state.moved = true;
   state.tell_observers(out);
   return Json{{"position", world->joint_state(index).position}};
@@ -139,6 +141,7 @@ Result<Json> push(State& state, ClientNumber client, const Asked& asked, Outbox&
   pull.anchor = transform_point(inverse(pose), asked.point("point"));
   pull.force = asked.point("force");
   state.pulls.set(client, pull);
+  state.act();
   return new_state(state, out);
 }
 
@@ -149,6 +152,7 @@ Result<Json> drag(State& state, ClientNumber client, const Asked& asked, Outbox&
   pull.target = asked.point("target");
   pull.to_target = true;
   state.pulls.set(client, pull);
+  state.act();
   return new_state(state, out);
 }
 

@@ -17,6 +17,7 @@
 #include "tenon/base/text/shown_path.h"
 #include "tenon/live/session_state.h"
 #include "tenon/make_simulation.h"
+#include "tenon/watches/report_faults.h"
 
 namespace tenon::live {
 namespace {
@@ -27,6 +28,7 @@ constexpr double kStepSeconds = 0.03;  // of real time that one call may step
 constexpr double kMostOwed = 0.1;      // [s] that a pause of the machine may be made up for
 constexpr double kRateWindow = 0.5;    // [s]
 constexpr std::size_t kMostContacts = 1000;
+constexpr int kLooksBeforeTold = 4;  // a fault that is there for a second is no passing one
 
 Json engines_json() {
   Json rows = Json::array();
@@ -207,10 +209,44 @@ void Session::State::begin_model() {
                         asset.world->set_drive_target(*index, drive, known->second).has_value();
     known = is_set || !asset.world ? std::next(known) : targets.erase(known);
   }
+  told_faults.clear();
+  watch_run(targets.empty() ? watches::Steering::None : watches::Steering::Commands);
+}
+
+void Session::State::act() {
+  if (watches && watches->steering() == watches::Steering::None) {
+    watch_run(watches::Steering::Commands);
+  }
+}
+
+void Session::State::watch_run(watches::Steering steering) {
+  seen_faults.clear();
+  watches.reset();
+  if (asset.world) {
+    watches.emplace(asset.world->simulation(), asset.scene(), steering);
+  }
+}
+
+void Session::State::tell_faults(Outbox& out) {
+  if (!watches || stopped) {
+    return;
+  }
+  Diagnostics found;
+  watches::report_faults(asset.scene(), watches->faults(), asset.world->events(), found);
+  std::map<std::string, int> seen;
+  for (const Diagnostic& finding : found) {
+    const int looks = seen[finding.rule] = seen_faults[finding.rule] + 1;
+    if (finding.severity == Severity::Warning && looks >= kLooksBeforeTold &&
+        told_faults.insert(finding.rule).second) {
+      tell_problem(finding, out);
+    }
+  }
+  seen_faults = std::move(seen);
 }
 
 void Session::State::set_asset(LiveAsset opened, const char* why, Outbox& out) {
-  asset.world.reset();  // it refers to the scene that goes
+  watches.reset();  // they refer to the world, and it to the scene, that goes
+  asset.world.reset();
   asset = std::move(opened);
   outdated.reset();
   ++revision;
@@ -246,6 +282,7 @@ Result<void> Session::State::reopen(LiveAssetOptions changed, const char* why, O
 }
 
 void Session::State::restart(const std::string& engine, const char* why, Outbox& out) {
+  watches.reset();  // they refer to the world that goes
   make_live_world(options.asset, engine, asset);
   begin_again(why, out);
 }
@@ -280,6 +317,7 @@ Result<void> Session::State::step(Outbox& out) {
     tell(0, state_notice(), out);
     return done;
   }
+  watches->after_step();
   return {};
 }
 
@@ -317,6 +355,7 @@ void Session::State::advance(double seconds, Outbox& out) {
   }
   if (state_timer.due(seconds) && playing) {
     tell(0, state_notice(), out);
+    tell_faults(out);
   }
   if (observer_timer.due(seconds) && playing) {
     tell_observers(out);
@@ -348,7 +387,7 @@ Result<Session> Session::open(SessionOptions options) {
   }
   TENON_TRY(state->asset, open_live_asset(options.asset));
   state->options = std::move(options);
-  state->pulls.begin(state->asset.scene());
+  state->begin_model();
   state->begin_watching();
   return Session(std::move(state));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "tenon/live/file_watch.h"
 #include "tenon/live/pulls.h"
 #include "tenon/live/session.h"
+#include "tenon/watches/run_watches.h"
 
 /// What a session knows. Internal to tenon/live: requests change it, session.cpp lets time pass.
 namespace tenon::live {
@@ -42,6 +44,10 @@ class Session::State {
   std::string frame;  ///< the last one that was told
   /// Why a changed file could not be opened; what is shown is older than the files.
   std::optional<Diagnostic> outdated;
+  /// Of the run since the model began, or since somebody acted on it; none: there is no model.
+  std::optional<watches::RunWatches> watches;
+  std::map<std::string, int> seen_faults;  ///< by rule: at how many looks in a row it was there
+  std::set<std::string> told_faults;       ///< rules that were told of this model
   /// Set by a request whose answer is made later, elsewhere.
   Function<Result<Json>()> later;
   /// Drive targets that were set, by joint and drive: they are set again on a new model.
@@ -72,6 +78,8 @@ class Session::State {
   Result<scene::Index> body(Path path) const;
   /// Errors: Invalid (live.stopped) after a step that failed.
   Result<void> check_not_stopped() const;
+  /// Somebody acts on the run: it is watched for less from here on.
+  void act();
   /// One step, with what pulls; one that fails stops the time until the model begins again.
   Result<void> step(Outbox& out);
 
@@ -90,11 +98,13 @@ class Session::State {
 
   void advance(double seconds, Outbox& out);
   void begin_watching();
+  void begin_model();
 
  private:
   void set_asset(LiveAsset opened, const char* why, Outbox& out);
-  void begin_model();
+  void watch_run(watches::Steering steering);
   void take_steps(double seconds, Outbox& out);
+  void tell_faults(Outbox& out);
 };
 
 /// Json for what was asked for.

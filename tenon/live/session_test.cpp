@@ -210,6 +210,30 @@ TEST_F(SessionTest, DrivesReachTheirTargets) {
   EXPECT_EQ(ask({{"do", "setDrive"}, {"joint", "/Arm/none"}}), "live.not-found");
 }
 
+TEST_F(SessionTest, TellsWhatIsWrongWithARunUnlessSomebodyActs) {
+  std::string text = kBase;
+  text.insert(text.find("        float drive:angular:physics:damping"),
+              "        float drive:angular:physics:maxForce = 0.1\n");
+  text.replace(text.find("upperLimit = 90"), 15, "upperLimit = 60");
+  write("base.usda", text);
+  open();
+  ask({{"do", "play"}});
+  advance(0.5);
+  EXPECT_FALSE(told_.contains("problem")) << "it moves still";
+  advance(9);
+  ASSERT_TRUE(told_.contains("problem"));
+  EXPECT_EQ(told_["problem"]["problem"]["rule"], "sim.drive-sags");
+  EXPECT_EQ(told_["problem"]["problem"]["prim"], "/Arm/hinge");
+  told_.erase("problem");
+  advance(3);
+  EXPECT_FALSE(told_.contains("problem")) << "once is enough";
+  ask({{"do", "reset"}});
+  ask({{"do", "setDrive"}, {"joint", "/Arm/hinge"}, {"position", 0}});
+  ask({{"do", "play"}});
+  advance(9);
+  EXPECT_FALSE(told_.contains("problem"));
+}
+
 TEST_F(SessionTest, KeepsTheLastPosesAndNamesTheBodyWhenAStepFails) {
   std::string text = kBase;
   text.insert(text.find("        float physics:mass = 0.5"),

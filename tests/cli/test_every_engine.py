@@ -206,10 +206,10 @@ class Joints(unittest.TestCase):
     def test_a_shaking_joint_is_told_and_so_is_the_integrator(self):
         scene = FINGER % ("", 5.24, 0.17, 20)
         told = self.told(self.simulate(scene, "mujoco"))
-        self.assertEqual(told["mujoco.integrator"], "/Robot/knuckle")
+        self.assertEqual(told["mujoco.coupled-drive"], "/Robot/knuckle")
         answer = self.simulate(scene, "mujoco", "--integrator", "implicitfast")
         told = self.told(answer)
-        self.assertNotIn("mujoco.integrator", told)  # the user's choice wins
+        self.assertNotIn("mujoco.coupled-drive", told)  # the user's choice wins
         if not answer["unstable"]:
             self.assertEqual(told["sim.joint-shakes"], "/Robot/knuckle")
 
@@ -231,6 +231,144 @@ class Joints(unittest.TestCase):
                     outside += is_outside
                     self.assertEqual("sim.beyond-limit" in self.told(answer), is_outside)
         self.assertGreater(outside, 0)
+
+
+# An arm of 2 kg with its centre 0.2 m from the hinge: 3.92 N m where it is level.
+ARM = """#usda 1.0
+(
+    defaultPrim = "Robot"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "Robot" (prepend apiSchemas = ["PhysicsArticulationRootAPI"])
+{
+    def PhysicsScene "Scene" {}
+    def Xform "base" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 5
+        float3 physics:diagonalInertia = (0.1, 0.1, 0.1)
+    }
+    def Xform "arm" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 2
+        point3f physics:centerOfMass = (0.2, 0, 0)
+        float3 physics:diagonalInertia = (0.01, 0.02, 0.02)
+        def Cube "Shape" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+        {
+            double size = 0.1
+            double3 xformOp:translate = (0.3, 0, 0)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }
+    }
+    def PhysicsFixedJoint "root" { rel physics:body1 = </Robot/base>
+    }
+    def Physics%sJoint "elbow" (prepend apiSchemas = ["PhysicsDriveAPI:%s"])
+    {
+        rel physics:body0 = </Robot/base>
+        rel physics:body1 = </Robot/arm>
+        uniform token physics:axis = "%s"
+        float drive:%s:physics:stiffness = %s
+        float drive:%s:physics:damping = %s
+        float drive:%s:physics:maxForce = %s
+        uniform token drive:%s:physics:type = "%s"
+    }
+%s}
+"""
+
+TABLE = """    def Cube "Table" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+    {
+        double size = 0.2
+        double3 xformOp:translate = (0.3, 0, -0.152)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+"""
+
+
+def arm(kind, stiffness, damping, most="inf", how="force", more=""):
+    turns = kind == "Revolute"
+    of = "angular" if turns else "linear"
+    return ARM % (kind, of, "Y" if turns else "Z", of, stiffness, of, damping, of, most, of, how,
+                  more)
+
+
+def ending_at(limit, text):
+    axis = 'axis = "Y"'
+    return text.replace(axis, f"{axis}\n        float physics:upperLimit = {limit}")
+
+
+def aiming_at(target, text):
+    drive = "float drive:linear:physics:damping"
+    aim = f"float drive:linear:physics:targetPosition = {target}\n        "
+    return text.replace(drive, aim + drive)
+
+
+class DrivesThatSag(unittest.TestCase):
+    """A drive that weight keeps away from its target is told with the weight on every engine, and
+    one that holds, rests on something or is commanded is not."""
+
+    # name, scene, severity (none: silent), words of the message
+    SCENES = (
+        ("weak", arm("Revolute", 0.3, 0.05), "info", ("takes 3.8", "stiffness")),
+        ("a little weak", arm("Revolute", 1.5, 0.3), "info", ("takes 3.9", "stiffness")),
+        ("strong", arm("Revolute", 30, 3), None, ()),
+        ("limited", ending_at(40, arm("Revolute", 30, 3, most="1")), "warning",
+         ("maxForce is 1 N m",)),
+        ("by acceleration", arm("Revolute", 3, 0.5, how="acceleration"), "info",
+         ("stiffness",)),
+        ("weak lift", arm("Prismatic", 500, 100), "info", ("takes 19.6 N", "0.0392 m")),
+        ("weak, at a limit", ending_at(20, arm("Revolute", 0.06, 0.05)), "info",
+         ("takes 3.6", "20 degrees")),
+        ("strong lift", arm("Prismatic", 50000, 1000), None, ()),
+        ("presses down on a table", aiming_at(-0.05, arm("Prismatic", 5000, 300, more=TABLE)), None,
+         ()),
+        ("presses up against a table", aiming_at(0.05, arm(
+            "Prismatic", 5000, 300, more=TABLE.replace("-0.152", "0.152"))), None, ()),
+    )
+
+    def told(self, text, engine, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "arm.usda")
+            path.write_text(text)
+            pathlib.Path(folder, "commands.csv").write_text("time,/Robot/elbow.target\n0,0\n")
+            done = run("sim", path, "--engine", engine, "--json", "--duration", "4",
+                       *(word.replace("FOLDER", folder) for word in words))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            return {d["rule"]: d for d in json.loads(done.stdout)["diagnostics"]}
+
+    def test_each_on_every_engine(self):
+        for name, text, severity, words in self.SCENES:
+            for engine in ENGINES:
+                with self.subTest(scene=name, engine=engine):
+                    found = self.told(text, engine).get("sim.drive-sags")
+                    self.assertEqual(found and found["severity"], severity)
+                    if found:
+                        self.assertEqual(found["prim"], "/Robot/elbow")
+                        for word in words:
+                            self.assertIn(word, found["message"] + found["fix"])
+
+    def test_the_advice_holds_the_arm(self):
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                found = self.told(arm("Revolute", 0.3, 0.05), engine)["sim.drive-sags"]
+                factor = float(re.search(r"stiffness ([\d.]+) times", found["fix"])[1])
+                held = self.told(arm("Revolute", 0.3 * factor * 1.05, 2), engine)
+                self.assertNotIn("sim.drive-sags", held)
+
+    def test_a_limit_may_bring_the_joint_back_against_its_drive(self):
+        """That stretches the drive, and is no energy from nowhere."""
+        bounds = ('axis = "Y"\n        float physics:lowerLimit = 47\n'
+                  "        float physics:upperLimit = 120")
+        text = arm("Revolute", 15, 1).replace('axis = "Y"', bounds)
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                self.assertIn("joint.outside-limit", self.told(text, engine))
+
+    def test_what_is_commanded_is_not_asked(self):
+        for engine in ENGINES:
+            with self.subTest(engine=engine):
+                told = self.told(arm("Revolute", 0.3, 0.05), engine, "--commands",
+                                 "FOLDER/commands.csv")
+                self.assertNotIn("sim.drive-sags", told)
 
 
 def scene(gravity, parts):

@@ -12,13 +12,13 @@
 
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
-#include "tenon/bake/report_run.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
 #include "tenon/make_simulation.h"
 #include "tenon/math/angle.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/watches/report_faults.h"
 
 namespace tenon {
 namespace {
@@ -196,7 +196,8 @@ Result<void> run_all(const CompareEnginesOptions& options, const motions::Motion
     Diagnostics found;
     TENON_TRY(one.motion, motions::run_motion(one.setup, plan, found));
     add_new(found, diagnostics);
-    bake::report_run(one.setup.scene, one.motion.run, diagnostics, one.setup.name);
+    watches::report_faults(one.setup.scene, one.motion.run.faults, one.motion.run.events,
+                           diagnostics, one.setup.name);
     if (one.motion.run.failure) {
       diagnostics.add(one.motion.run.failure->diagnostic());
     }

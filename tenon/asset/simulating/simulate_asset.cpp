@@ -17,7 +17,6 @@
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
-#include "tenon/bake/report_run.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/grouped_digits.h"
@@ -25,6 +24,7 @@
 #include "tenon/bytes/files.h"
 #include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/watches/report_faults.h"
 
 namespace tenon {
 namespace {
@@ -219,7 +219,7 @@ void tell_sensors(const SimulateAssetOptions& options, const SimulatedAsset& ass
 void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset,
                 Diagnostics& diagnostics) {
   const bake::Run& run = asset.run;
-  bake::report_run(*asset.scene, run, diagnostics);
+  watches::report_faults(*asset.scene, run.faults, run.events, diagnostics);
   if (run.failure) {
     diagnostics.add(run.failure->diagnostic());
   } else if (options.until_rest && !run.rest_since && !run.interrupted) {

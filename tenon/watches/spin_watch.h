@@ -8,7 +8,7 @@
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
 
-namespace tenon::bake {
+namespace tenon::watches {
 
 /// A body that tumbles or precesses faster than the steps resolve.
 struct FastSpin {
@@ -43,4 +43,4 @@ class SpinWatch {
   std::size_t steps_ = 0;
 };
 
-}  // namespace tenon::bake
+}  // namespace tenon::watches

@@ -7,7 +7,7 @@
 #include "tenon/engines/simulation.h"
 #include "tenon/scene/physics_scene.h"
 
-namespace tenon::bake {
+namespace tenon::watches {
 
 /// Energy that a run lost or gained where nothing takes or gives any.
 struct EnergyDrift {
@@ -39,4 +39,4 @@ class EnergyDriftWatch {
   std::size_t steps_ = 0;
 };
 
-}  // namespace tenon::bake
+}  // namespace tenon::watches

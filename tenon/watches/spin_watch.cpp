@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/watches/spin_watch.h"
+#include "tenon/watches/spin_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "tenon/math/inertia.h"
 #include "tenon/scene/joint_dofs.h"
 
-namespace tenon::bake {
+namespace tenon::watches {
 namespace {
 
 using scene::Index;
@@ -113,4 +113,4 @@ std::vector<FastSpin> SpinWatch::fast() const {
   return found;
 }
 
-}  // namespace tenon::bake
+}  // namespace tenon::watches

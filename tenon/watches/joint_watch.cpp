@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/watches/joint_watch.h"
+//
+// A joint shakes where its velocity changes sign in most steps of a window. What is not at rest for
+// a moment alone is asked at the end of the run: whether it is outside of its limits, and whether
+// weight keeps its drive away from the target.
+#include "tenon/watches/joint_watch.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tenon/math/angle.h"
 #include "tenon/scene/joint_dofs.h"
+#include "tenon/watches/weight_loads.h"
 
-namespace tenon::bake {
+namespace tenon::watches {
 namespace {
 
 using scene::Index;
@@ -20,6 +25,11 @@ constexpr std::size_t kFewest = 3;   // windows in which a joint has shaken
 constexpr double kShakes = 5;        // degrees/s or mm/s in the mean; less is noise of the solver
 constexpr double kBeyond = 2;        // degrees or mm; limits are soft in every engine
 constexpr double kOfRange = 0.02;
+constexpr double kStill = 0.2;              // degrees or mm,
+constexpr double kOfWay = 0.25;             // and so much of what it is away from its target
+constexpr std::size_t kStillWindows = 4;    // and a quarter of the run
+constexpr double kSags = 1;                 // degrees or mm
+constexpr double kWeightIsTheReason = 0.5;  // of what the drive exerts
 
 /// One degree, or one millimetre.
 double unit(bool angular) { return angular ? kRadians : 1e-3; }
@@ -29,10 +39,22 @@ bool is_spring(const scene::Joint& joint, scene::Dof dof) {
                      [&](const auto& spring) { return spring.dof == dof && spring.stiffness > 0; });
 }
 
+/// A drive with a spring whose numbers do not change, where the joint has no other.
+std::optional<Index> holding_drive(const scene::PhysicsScene& scene, Index joint) {
+  const std::vector<scene::Drive>& drives = scene.joints[joint].drives;
+  const bool animated =
+      std::any_of(scene.scalar_tracks.begin(), scene.scalar_tracks.end(),
+                  [&](const scene::ScalarTrack& track) { return track.joint == joint; });
+  const bool holds = drives.size() == 1 && drives.front().stiffness > 0 &&
+                     drives.front().target_velocity == 0 && !animated;
+  return holds ? std::optional<Index>(0) : std::nullopt;
+}
+
 }  // namespace
 
-JointWatch::JointWatch(const engines::Simulation& simulation, const scene::PhysicsScene& scene)
-    : simulation_(simulation) {
+JointWatch::JointWatch(const engines::Simulation& simulation, const scene::PhysicsScene& scene,
+                       bool steered)
+    : simulation_(simulation), scene_(scene) {
   const std::vector<scene::FreeRotations> rotations = wanted_rotations(scene);
   for (Index j = 0; j < scene.joints.size(); ++j) {
     const scene::Joint& joint = scene.joints[j];
@@ -47,6 +69,11 @@ JointWatch::JointWatch(const engines::Simulation& simulation, const scene::Physi
     const bool soft = is_spring(joint, free.dof) || !scene.bounds_tracks.empty();
     watched.lower = soft ? -kInfinity : free.lower;
     watched.upper = soft ? kInfinity : free.upper;
+    watched.drive = steered ? std::nullopt : holding_drive(scene, j);
+    if (watched.drive) {
+      watched.target = std::clamp(joint.drives[*watched.drive].target_position, watched.lower,
+                                  std::max(watched.lower, watched.upper));
+    }
     joints_.push_back(watched);
   }
 }
@@ -67,11 +94,25 @@ void JointWatch::look(Watched& watched, std::size_t step_of_window) const {
   watched.sum += speed;
   watched.top = std::max(watched.top, speed);
   watched.last = velocity;
+  if (step_of_window < kWindow - 1) {
+    return;
+  }
   const bool shakes = watched.changes >= kChanges &&
                       watched.sum > kShakes * unit(watched.angular) * static_cast<double>(kWindow);
-  if (step_of_window == kWindow - 1 && shakes) {
+  if (shakes) {
     ++watched.shaken;
     watched.fastest = std::max(watched.fastest, watched.top);
+  }
+  const double position = state.position.front();
+  const double still =
+      std::max(kStill * unit(watched.angular), kOfWay * std::fabs(position - watched.target));
+  const bool moved = std::fabs(position - watched.place) > still;
+  watched.still = moved ? 0 : watched.still + 1;
+  watched.place = moved ? position : watched.place;
+  if (watched.drive) {
+    const scene::Drive& drive = scene_.joints[watched.joint].drives[*watched.drive];
+    const double wanted = drive.stiffness * std::fabs(position - watched.target);
+    watched.saturated += wanted > drive.max_force ? 1 : 0;
   }
 }
 
@@ -104,7 +145,36 @@ std::vector<JointFault> JointWatch::faults() const {
       found.push_back({watched.joint, JointFault::Kind::BeyondLimit, watched.angular, beyond});
     }
   }
+  find_sagging(found);
   return found;
 }
 
-}  // namespace tenon::bake
+/// Only where weight is what pulls at the drive: fingers that press on something are away from
+/// their targets on purpose.
+void JointWatch::find_sagging(std::vector<JointFault>& found) const {
+  std::vector<double> loads;
+  for (const Watched& watched : joints_) {
+    const bool rests = watched.still >= kStillWindows && 4 * watched.still >= windows_;
+    const bool too_weak = watched.saturated >= kStillWindows && 2 * watched.saturated >= windows_;
+    if (!watched.drive || !(rests || too_weak)) {
+      continue;
+    }
+    const scene::Drive& drive = scene_.joints[watched.joint].drives[*watched.drive];
+    const std::vector<double> position = simulation_.joint_state(watched.joint).position;
+    const double away = position.empty() ? 0 : watched.target - position.front();
+    if (!(std::fabs(away) > kSags * unit(watched.angular))) {
+      continue;
+    }
+    if (loads.empty()) {
+      loads = weight_loads(simulation_, scene_);
+    }
+    const double load = away > 0 ? -loads[watched.joint] : loads[watched.joint];
+    const double exerted = std::min(drive.stiffness * std::fabs(away), drive.max_force);
+    if (load > 0 && (drive.acceleration || load > kWeightIsTheReason * exerted)) {
+      found.push_back({watched.joint, JointFault::Kind::Sags, watched.angular, std::fabs(away),
+                       load, *watched.drive});
+    }
+  }
+}
+
+}  // namespace tenon::watches

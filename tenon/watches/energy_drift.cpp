@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tenon/bake/watches/energy_drift.h"
+#include "tenon/watches/energy_drift.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tenon/scene/joint_freedom.h"
 
-namespace tenon::bake {
+namespace tenon::watches {
 namespace {
 
 using scene::Index;
@@ -117,4 +117,4 @@ std::optional<EnergyDrift> EnergyDriftWatch::drift() const {
   return drifted ? std::optional(found) : std::nullopt;
 }
 
-}  // namespace tenon::bake
+}  // namespace tenon::watches
