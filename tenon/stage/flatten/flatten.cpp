@@ -14,6 +14,7 @@
 
 #include "tenon/layer/type_names.h"
 #include "tenon/stage/composed_fields.h"
+#include "tenon/stage/flatten/flat_values.h"
 #include "tenon/stage/stage_data.h"
 #include "tenon/stage/values/resolve_value.h"
 
@@ -195,17 +196,6 @@ class Flattener {
     spec.set(field, std::move(names));
   }
 
-  // Paths into prototypes become paths into their flattened copies.
-  Path moved(Path path) const {
-    for (Path at = path; !at.empty(); at = at.parent()) {
-      const auto it = prototype_paths_.find(at);
-      if (it != prototype_paths_.end()) {
-        return path.replace_prefix(it->first, it->second);
-      }
-    }
-    return path;
-  }
-
   void copy_prim(const Prim& prim, Path path) {
     Spec& spec = layer_.create(path, SpecKind::Prim);
     spec.set(fields::specifier, prim.specifier());
@@ -278,7 +268,7 @@ class Flattener {
       return;
     }
     for (Path& target : targets) {
-      target = moved(target);
+      target = values_.moved(target);
     }
     spec.set(field, layer::ListOp<Path>::make_explicit(std::move(targets)));
   }
@@ -330,18 +320,13 @@ class Flattener {
     if (unanimated.blocked) {
       spec.set(fields::default_value, layer::ValueBlock{});
     } else if (unanimated.source == ValueSource::Default) {
-      Value value = read(prim, name, unanimated, Time());
+      Value value = values_.read(prim, name, unanimated, Time());
       note_type(value, type);
-      spec.set(fields::default_value,
-               value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
+      spec.set(fields::default_value, std::move(value));
     }
-    const ResolvedValue animated = resolve_value(prim, name, Asked::AnyTime);
-    layer::TimeSamples samples;
-    for (const double time : attribute.time_samples()) {
-      Value value = read(prim, name, animated, time);
+    layer::TimeSamples samples = values_.samples(prim, attribute);
+    for (const Value& value : samples.values) {
       note_type(value, type);
-      samples.times.push_back(time);
-      samples.values.push_back(value.empty() ? Value(layer::ValueBlock{}) : std::move(value));
     }
     if (!samples.empty()) {
       spec.set(fields::timeSamples, std::move(samples));
@@ -351,13 +336,10 @@ class Flattener {
     }
   }
 
-  Value read(const PrimData& prim, Token name, const ResolvedValue& resolved, Time time) const {
-    return read_value(stage_.data(), prim, name, resolved, time, AssetForm::Anchored);
-  }
-
   const Stage& stage_;
   Layer layer_;
-  std::unordered_map<Path, Path> prototype_paths_;
+  PathMap prototype_paths_;
+  FlatValues values_{stage_.data(), prototype_paths_};
   std::unordered_map<const void*, layer::FieldList> completed_;  // by authored fields
 };
 
