@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/open_layer.h"
 #include "tenon/layer/field_values.h"
 
@@ -72,6 +73,27 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
   Layer layer = from_crate([](layer::Spec&, layer::Spec&) {});
   layer.root().set(fields::specifier, layer::Specifier::Def);
   expect_no_text(layer);
+}
+
+// Binary layers may have more levels of prims than text.
+TEST(SaveLayer, RefusesTextThatWouldBeNestedTooDeepToBeRead) {
+  const auto with_levels = [](std::size_t levels) {
+    Layer layer("odd.usda");
+    Path path = Path::absolute_root();
+    for (std::size_t i = 0; i < levels; ++i) {
+      layer.create(path, SpecKind::Prim).set(fields::primChildren, std::vector<Token>{Token("a")});
+      path = path.child(Token("a"));
+      layer.create(path, SpecKind::Prim).set(fields::specifier, layer::Specifier::Def);
+    }
+    Diagnostics diagnostics;
+    const auto bytes = encode_layer(layer, LayerFormat::Crate);
+    EXPECT_TRUE(bytes);
+    auto back = read_layer(bytes::FileBytes::own(*bytes), "odd.usdc", diagnostics);
+    EXPECT_TRUE(back);
+    return *std::move(back);
+  };
+  EXPECT_TRUE(encode_layer(with_levels(limits::kTextNestingDepth), LayerFormat::Text));
+  expect_no_text(with_levels(limits::kTextNestingDepth + 1));
 }
 
 }  // namespace

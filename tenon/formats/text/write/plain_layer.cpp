@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/limits/limits.h"
 #include "tenon/formats/text/words.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
@@ -32,6 +33,8 @@ using layer::ValueType;
 namespace fields = layer::fields;
 
 constexpr int kDepth = 32;  // of dictionaries
+/// Of prims, with their metadata inside; binary layers may have more than text may.
+constexpr std::size_t kLevels = limits::kTextNestingDepth - 2 * kDepth;
 
 template <class T>
 bool are_unique(const std::vector<T>& items) {
@@ -225,6 +228,9 @@ bool has_plain_text(const layer::Layer& layer) {
   Memory memory;
   return std::all_of(layer.entries().begin(), layer.entries().end(), [&](const auto& entry) {
     const layer::Spec& spec = entry.spec;
+    if (entry.path.depth() > kLevels) {
+      return false;
+    }
     switch (spec.kind) {
       case SpecKind::PseudoRoot:
       case SpecKind::Prim:
