@@ -108,6 +108,8 @@ TEST_F(AssetAnswers, EditsComeAsFilesAndAsJson) {
   const answers::Json json = edited_json(*edits, *edited, true);
   EXPECT_NE(json["files"][0]["diff"].get<std::string>().find("physics:mass = 4"),
             std::string::npos);
+  EXPECT_EQ(json["written"], false);
+  EXPECT_EQ(edited_json(*edits, *edited, false)["written"], true);
   EXPECT_FALSE(read_edits(box_, {}, {}));
 }
 

@@ -74,6 +74,7 @@ Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset, 
                      {"keptLayout", file.kept_layout}});
   }
   return {{"dryRun", dry_run},
+          {"written", !dry_run && asset.without_effect.empty() && !asset.files.empty()},
           {"edits", std::move(places)},
           {"physics", physics_json(asset)},
           {"files", std::move(files)}};

@@ -11,12 +11,13 @@
 
 namespace tenon {
 
-/// What edits did, or with `dry_run` would do: {"dryRun", "edits": [{"object", "api", "file",
-/// "line", "spec", "why", "before", "after", "metadata", "mesh", "variants", "hasEffect"}],
+/// What edits did, or with `dry_run` would do: {"dryRun", "written", "edits": [{"object", "api",
+/// "file", "line", "spec", "why", "before", "after", "metadata", "mesh", "variants", "hasEffect"}],
 /// "physics": [{"variant", "differences": rows of answers::difference_json}], "files": [{"file",
-/// "diff", "keptLayout"}]}. "diff" is null for what is no text, "variant" where there is no set
-/// "Physics", "metadata" (the name of one of the stage) and "mesh" (where a shape comes from) for
-/// all other edits.
+/// "diff", "keptLayout"}]}. "written": that the files are to be written, which an edit without
+/// effect is not, and a dry run neither; the exit code is 1 for a missing layer, too. "diff" is
+/// null for what is no text, "variant" where there is no set "Physics", "metadata" (the name of one
+/// of the stage) and "mesh" (where a shape comes from) for all other edits.
 answers::Json edited_json(const std::vector<AssetEdit>& edits, const EditedAsset& asset,
                           bool dry_run);
 
