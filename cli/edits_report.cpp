@@ -21,15 +21,20 @@
 namespace tenon::cli {
 namespace {
 
-/// A list of targets in which an edit of a prim or property is followed.
+/// A property, or the layer itself, that names the prim of an edit.
 bool is_of_target(const AssetEdit& edit, const EditedPlace& place) {
-  return edit.is_about_specs() && place.spec.is_property() && !edit.object.is_property();
+  const bool of_layer =
+      place.spec.is_absolute_root() && place.before.empty() && place.after.empty();
+  return edit.is_about_prim() && edit.is_about_specs() && (place.spec.is_property() || of_layer);
 }
 
 std::string what(const AssetEdit& edit, const EditedPlace& place) {
   const bool api = !edit.api.empty();
   if (is_of_target(edit, place)) {
-    return place.spec.str() + "  without its target " + edit.object.str();
+    const std::string before = edit.kind == AssetEdit::Kind::RenamePrim ? "  with the new name of "
+                               : place.spec.is_property()               ? "  without its target "
+                                                                        : "  names no more ";
+    return place.spec.str() + before + edit.object.str();
   }
   if (edit.kind == AssetEdit::Kind::SetStageMetadata) {
     return edit.field.str();

@@ -227,9 +227,12 @@ void add_remove(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--engine", options->engine, "The engine whose file and variant go");
   add_file_options(verb, *options, false);
   verb.footer(
-      "A prim goes from all files of the asset, and from every list of targets in them; joints of\n"
-      "a body that goes go with it. A kind that is put on a prim takes its schemas along and what\n"
-      "they declare. Removing what add has just added gives the file back as it was.\n\n"
+      "A prim goes from all files of the asset, with the opinions on prims that are composed of "
+      "it,\n"
+      "and from every list of targets in them; a list that replaces weaker ones stays, if empty.\n"
+      "Joints of a body that goes go with it. A kind that is put on a prim takes its schemas "
+      "along\n"
+      "and what they declare. Removing what add has just added gives the file back as it was.\n\n"
       "Examples:\n"
       "  tenon remove s.usda /World/box\n"
       "  tenon remove s.usda /World/box=body,mass\n"
@@ -251,8 +254,10 @@ void add_rename(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("name", options->name, "Its new name").required();
   add_file_options(verb, *options, false);
   verb.footer(
-      "Targets of relationships, connections and arcs follow, in all files of the asset; texts\n"
-      "that hold paths, such as expressions, do not.\n\n"
+      "Targets of relationships, connections and arcs follow, in all files of the asset, and so "
+      "do\n"
+      "opinions on prims that are composed of it; texts that hold paths, such as expressions, do\n"
+      "not. An edit that something cannot follow is refused.\n\n"
       "Examples:\n"
       "  tenon rename s.usda /World/box crate\n"
       "  tenon rename s.usda /World/box.mass physics:mass");

@@ -27,7 +27,10 @@
 #include "tenon/asset/edit_value.h"
 #include "tenon/asset/editing/all_file_edits.h"
 #include "tenon/asset/editing/author_edit.h"
+#include "tenon/asset/editing/dependent_edits.h"
+#include "tenon/asset/editing/edit_refusals.h"
 #include "tenon/asset/editing/engine_layer.h"
+#include "tenon/asset/editing/other_variants.h"
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/stage_editor.h"
@@ -46,55 +49,6 @@ using Kind = AssetEdit::Kind;
 using StagePtr = std::shared_ptr<const stage::Stage>;
 
 constexpr const char* kVariantSet = "Physics";
-
-Error no_prim(Path prim) {
-  return Error(ErrorCode::NotFound, "there is no prim <" + prim.str() + ">, in no variant")
-      .with_prim(prim.str())
-      .with_rule("edit.no-prim")
-      .with_fix("tenon tree lists all prims");
-}
-
-Result<void> check_in_no_package(const std::string& identifier) {
-  if (!bytes::is_in_package(identifier)) {
-    return {};
-  }
-  return Error(ErrorCode::Unsupported, "files in a package cannot be edited in place")
-      .in_file(identifier)
-      .with_rule("edit.in-package")
-      .with_fix("tenon zip PACKAGE --extract FOLDER unpacks it");
-}
-
-Result<void> check_object(const AssetEdit& edit) {
-  const Path path = edit.object;
-  const bool of_prim = edit.is_about_api() || edit.is_about_prim();
-  const bool of_stage = edit.kind == Kind::SetStageMetadata;
-  const bool fits = of_stage  ? path.is_absolute_root()
-                    : of_prim ? path.is_prim()
-                              : path.kind() == PathKind::Property;
-  if (fits && path.is_absolute() && !path.has_variants()) {
-    return {};
-  }
-  return not_a_path(path.str(), of_prim ? "prim" : "property");
-}
-
-Error already_there(const stage::Prim& prim) {
-  const std::string type = prim.type_name().empty() ? "without a type" : prim.type_name().str();
-  return Error(ErrorCode::Invalid, "<" + prim.path().str() + "> is there already, a prim " +
-                                       (prim.type_name().empty() ? type : "of type " + type))
-      .with_prim(prim.path().str())
-      .with_rule("edit.prim-exists")
-      .with_fix("choose another path, or remove it first: tenon remove ASSET " + prim.path().str());
-}
-
-/// What helps where files are edited.
-Error with_file_fix(Error error) {
-  const std::string& rule = error.diagnostic().rule;
-  if (rule == "edit.no-spec") {
-    return std::move(error).with_fix("tenon where names the files that do");
-  }
-  return rule == "edit.outside-target" ? std::move(error).with_fix("name another file with --in")
-                                       : std::move(error);
-}
 
 }  // namespace
 
@@ -233,6 +187,7 @@ class AssetEditor::State {
             with_variant(sources.session, prim, kVariantSet, options_.open.physics_variant);
       }
     }
+    session_ = sources.session;
     return {};
   }
 
@@ -328,17 +283,24 @@ class AssetEditor::State {
 
   /// In all files at once; looks whether it is composed as asked.
   Result<void> edit_specs(std::size_t number, const AssetEdit& edit) {
-    AllFiles files{
-        roles_, {}, [this](const std::string& layer) { return editor_of(layer); }, *diagnostics_};
+    AllFiles files{roles_,
+                   {},
+                   {},
+                   [this](const std::string& layer) { return editor_of(layer); },
+                   *diagnostics_};
     for (const Selection& selection : selections_) {
       files.stages.push_back(selection.stage);
+    }
+    TENON_CHECK(open_other_variants(edit));
+    for (const Selection& selection : other_variants_) {
+      files.other_variants.push_back(selection.stage);
     }
     if (edit.tidy) {
       TENON_TRY(const std::string gone, file_that_goes(files, edit));
       gone_.insert(gone);
     }
-    TENON_TRY(std::vector<EditedPlace> places, edit_in_all_files(files, edit));
-    for (EditedPlace& place : places) {
+    TENON_TRY(EditedSpecs edited, edit_in_all_files(files, edit));
+    for (EditedPlace& place : edited.places) {
       TENON_CHECK(check_in_no_package(place.file));
       place.edit = number;
       places_.push_back(std::move(place));
@@ -346,15 +308,39 @@ class AssetEditor::State {
     for (Selection& selection : selections_) {
       TENON_CHECK(compose(selection));
       TENON_CHECK(check_done_in_all_files(*selection.stage, edit));
+      TENON_CHECK(check_dependents_followed(*selection.stage, edited.dependents));
+    }
+    for (Selection& selection : other_variants_) {
+      TENON_CHECK(compose(selection));
+      TENON_CHECK(check_dependents_followed(*selection.stage, edited.dependents));
+    }
+    other_variants_.clear();
+    return {};
+  }
+
+  /// What depends on a prim may do so by an arc of a variant that is not selected.
+  Result<void> open_other_variants(const AssetEdit& edit) {
+    other_variants_.clear();
+    if (edit.kind != Kind::RemovePrim && edit.kind != Kind::RenamePrim) {
+      return {};
+    }
+    const bool all = selections_.size() > 1;  // of the set that selections_ are about
+    for (layer::LayerPtr& session : sessions_of_other_variants(
+             *selections_.front().stage, session_,
+             all ? std::set<std::string>{kVariantSet} : std::set<std::string>())) {
+      other_variants_.push_back({"", history().under_session(std::move(session)), nullptr});
+      TENON_CHECK(compose(other_variants_.back()));
     }
     return {};
   }
 
   /// An editor whose scene has the layer; null: none has.
   edit::StageEditor* editor_of(const std::string& layer) {
-    for (Selection& selection : selections_) {
-      if (selection.editor.layer(layer) != nullptr) {
-        return &selection.editor;
+    for (auto* list : {&selections_, &other_variants_}) {
+      for (Selection& selection : *list) {
+        if (selection.editor.layer(layer) != nullptr) {
+          return &selection.editor;
+        }
       }
     }
     return nullptr;
@@ -368,7 +354,7 @@ class AssetEditor::State {
     };
     const auto first = std::find_if(selections_.begin(), selections_.end(), has_prim);
     if (first == selections_.end()) {
-      return no_prim(edit.kind == Kind::DefinePrim ? prim_path.parent() : prim_path);
+      return no_prim_in_any_variant(edit.kind == Kind::DefinePrim ? prim_path.parent() : prim_path);
     }
     if (reads_what_is_written(edit)) {
       return false;
@@ -544,7 +530,9 @@ class AssetEditor::State {
   Diagnostics* diagnostics_ = nullptr;  // of the call
   layer::LayerPtr root_;
   std::vector<layer::LayerPtr> made_;  // for an engine: the interface with its variant, its file
+  layer::LayerPtr session_;            // of the first selection; may be null
   std::vector<Selection> selections_;  // first: as the asset opens
+  std::vector<Selection> other_variants_;  // while an edit is about all files
   stage::WorkAccount work_;
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;

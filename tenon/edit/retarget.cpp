@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // When a prim moves, what names it in its layer stack follows.
+#include "tenon/edit/default_prim.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/layer/fields.h"
 
@@ -66,13 +67,14 @@ bool follow_relocates(Value& value, const Move& move) {
 }
 
 bool follow_default_prim(Value& value, const Move& move) {
-  const auto* name = value.get<Token>();
-  const bool named = name != nullptr && move.from.parent().is_absolute_root() &&
-                     move.to.parent().is_absolute_root() && *name == move.from.name();
-  if (named) {
-    value = Value(move.to.name());
+  const auto* text = value.get<Token>();
+  Path path = text == nullptr ? Path() : default_prim_path(*text);
+  if (path.empty() || !follow(path, move)) {
+    return false;
   }
-  return named;
+  const bool as_name = text->view().front() != '/' && path.parent().is_absolute_root();
+  value = Value(as_name ? path.name() : Token(path.str()));
+  return true;
 }
 
 bool follow_field(Token name, Value& value, const Move& move) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tenon/asset/editing/dependent_edits.h"
 #include "tenon/asset/editing/prim_sites.h"
 #include "tenon/asset/editing/spec_edits.h"
 #include "tenon/asset/editing/stage_metadata.h"
@@ -109,7 +110,8 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
   EditedPlace place;
   place.file = file;
   place.spec = spec;
-  const bool of_target = spec.is_property() && edit.kind != Kind::RenameProperty;
+  const bool of_target = (spec.is_property() && edit.kind != Kind::RenameProperty) ||
+                         spec.is_absolute_root();  // the default prim
   const bool removes = edit.kind == Kind::RemovePrim;
   if (!of_target) {
     place.before = removes                            ? type_of(files, edit.object)
@@ -126,15 +128,11 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
 
 }  // namespace
 
-Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit) {
-  if (edit.kind == Kind::SetStageMetadata) {
-    TENON_TRY(EditedPlace place, set_stage_metadata(files, edit, files.diagnostics));
-    return std::vector<EditedPlace>{std::move(place)};
-  }
-  if (is_renaming(edit)) {
-    TENON_CHECK(check_new_name(files, edit));
-  }
-  TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object.prim()));
+namespace {
+
+/// In the files that define the prim.
+Result<std::vector<EditedPlace>> edit_own(const AllFiles& files, const PrimSites& sites,
+                                          const AssetEdit& edit) {
   std::vector<EditedPlace> places;
   for (const auto& [layer, site] : sites) {
     edit::StageEditor* editor = files.editor_of(layer);
@@ -152,6 +150,27 @@ Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const 
   }
   return places.empty() ? Result<std::vector<EditedPlace>>(nothing_to_edit(edit))
                         : Result<std::vector<EditedPlace>>(std::move(places));
+}
+
+}  // namespace
+
+Result<EditedSpecs> edit_in_all_files(const AllFiles& files, const AssetEdit& edit) {
+  EditedSpecs edited;
+  if (edit.kind == Kind::SetStageMetadata) {
+    TENON_TRY(EditedPlace place, set_stage_metadata(files, edit, files.diagnostics));
+    edited.places.push_back(std::move(place));
+    return edited;
+  }
+  if (is_renaming(edit)) {
+    TENON_CHECK(check_new_name(files, edit));
+  }
+  TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object.prim()));
+  TENON_TRY(stage::Dependents dependents, dependents_in(files, sites, edit));
+  TENON_TRY(edited.places, edit_own(files, sites, edit));
+  TENON_TRY(const std::vector<EditedPlace> more, edit_dependents(files, dependents, edit));
+  edited.places.insert(edited.places.end(), more.begin(), more.end());
+  edited.dependents = std::move(dependents.prims);
+  return edited;
 }
 
 Result<std::string> file_that_goes(const AllFiles& files, const AssetEdit& edit) {

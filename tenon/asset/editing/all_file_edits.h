@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,20 @@ namespace tenon {
 struct AllFiles {
   const structure::RolesOfFiles& roles;
   std::vector<std::shared_ptr<const stage::Stage>> stages;  ///< under all selections
+  /// Under variants that are not selected; there to find what depends on a prim alone.
+  std::vector<std::shared_ptr<const stage::Stage>> other_variants;
   std::function<edit::StageEditor*(const std::string& layer)> editor_of;
   Diagnostics& diagnostics;
 };
 
-/// Makes the edit; a place for each file, and for each list of targets that lost one. Errors: those
-/// of prim_sites.h and spec_edits.h; NotFound (edit.no-spec) where no own file defines it.
-Result<std::vector<EditedPlace>> edit_in_all_files(const AllFiles& files, const AssetEdit& edit);
+struct EditedSpecs {
+  std::vector<EditedPlace> places;  ///< one for each file, and for each list that lost a target
+  std::set<Path> dependents;        ///< prims that were composed of the one that was edited
+};
+
+/// Makes the edit, and lets what depends on the prim follow. Errors: those of prim_sites.h,
+/// spec_edits.h and dependent_edits.h; NotFound (edit.no-spec) where no own file defines it.
+Result<EditedSpecs> edit_in_all_files(const AllFiles& files, const AssetEdit& edit);
 
 /// The file of an engine whose variant the edit removes, which goes with it; empty where none does.
 /// Errors: Invalid (edit.in-use) where the file has opinions.

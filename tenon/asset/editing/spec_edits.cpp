@@ -7,9 +7,11 @@
 #include "tenon/asset/editing/spec_edits.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "tenon/asset/editing/path_texts.h"
+#include "tenon/edit/default_prim.h"
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/fields.h"
 
@@ -22,6 +24,17 @@ std::vector<Path> prim_specs(const layer::Layer& layer, Path prim) {
   std::vector<Path> found;
   for (const layer::Layer::Entry& entry : layer.entries()) {
     if (entry.path.is_prim() && entry.path.strip_variants() == prim) {
+      found.push_back(entry.path);
+    }
+  }
+  return found;
+}
+
+/// Those of the prim and of its variants, which may have arcs.
+std::vector<Path> arc_specs(const layer::Layer& layer, Path prim) {
+  std::vector<Path> found;
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    if (entry.path.is_prim_or_variant() && entry.path.strip_variants() == prim) {
       found.push_back(entry.path);
     }
   }
@@ -85,9 +98,65 @@ bool drop_from(edit::LayerEditor& editor, Path property, Token field, Path prim)
     changed = std::erase_if(*list, [&](Path path) { return path.has_prefix(prim); }) > 0 || changed;
   }
   if (changed) {
-    const bool nothing = op.empty() || (op.is_explicit && op.explicit_items.empty());
-    nothing ? editor.erase(property, field)
-            : editor.set(property, field, layer::Value(std::move(op)));
+    // One that replaces weaker lists goes on hiding them when it is empty.
+    op.empty() ? editor.erase(property, field)
+               : editor.set(property, field, layer::Value(std::move(op)));
+  }
+  return changed;
+}
+
+/// What the layer itself says that names the prim: its default prim, its relocates. What was
+/// relocated there does not come back to where it was.
+bool drop_from_layer(edit::LayerEditor& editor, Path prim) {
+  const Path root = Path::absolute_root();
+  const Path default_prim = edit::default_prim_path(editor.layer().default_prim());
+  const bool is_default = !default_prim.empty() && default_prim.has_prefix(prim);
+  if (is_default) {
+    editor.erase(root, fields::defaultPrim);
+  }
+  auto relocates = editor.get_or(root, fields::layerRelocates, layer::Relocates{});
+  bool changed = std::erase_if(relocates.pairs,
+                               [&](const auto& pair) { return pair.first.has_prefix(prim); }) > 0;
+  for (auto& [source, target] : relocates.pairs) {
+    if (!target.empty() && target.has_prefix(prim)) {
+      target = Path();
+      changed = true;
+    }
+  }
+  if (changed) {
+    relocates.pairs.empty()
+        ? editor.erase(root, fields::layerRelocates)
+        : editor.set(root, fields::layerRelocates, layer::Value(std::move(relocates)));
+  }
+  return is_default || changed;
+}
+
+/// An arc to `arc.to`, in that file or one of the same name: where a path leads is not kept.
+template <class T>
+bool rename_in(T& one, const stage::Dependents::Arc& arc, Path now) {
+  const auto name_of = [](const std::string& path) {
+    return std::string_view(path).substr(path.find_last_of('/') + 1);
+  };
+  const bool leads = !one.asset_path.empty() && one.prim_path == arc.to &&
+                     name_of(one.asset_path) == name_of(arc.file);
+  if (leads) {
+    one.prim_path = now;
+  }
+  return leads;
+}
+
+template <class T>
+bool rename_in_list(edit::LayerEditor& editor, Path spec, Token field,
+                    const stage::Dependents::Arc& arc, Path now) {
+  auto op = editor.get_or(spec, field, layer::ListOp<T>{});
+  bool changed = false;
+  for (std::vector<T>* list : all_lists(op)) {
+    for (T& one : *list) {
+      changed = rename_in(one, arc, now) || changed;
+    }
+  }
+  if (changed) {
+    editor.set(spec, field, layer::Value(std::move(op)));
   }
   return changed;
 }
@@ -106,6 +175,9 @@ Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim
   std::vector<Path> changed = prim_specs(editor.layer(), prim);
   for (const Path spec : changed) {
     TENON_CHECK(editor.remove_prim(spec));
+  }
+  if (drop_from_layer(editor, prim)) {
+    changed.push_back(Path::absolute_root());
   }
   std::vector<Path> properties;
   for (const layer::Layer::Entry& entry : editor.layer().entries()) {
@@ -137,6 +209,21 @@ Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim
   editor.retarget(prim, to);
   for (const Path spec : follow_in_texts(editor, prim, to)) {
     changed.push_back(spec);
+  }
+  return changed;
+}
+
+std::vector<Path> rename_in_asset_arcs(edit::LayerEditor& editor, const stage::Dependents::Arc& arc,
+                                       Token name) {
+  const Path now = arc.to.replace_prefix(arc.prim, arc.prim.parent().child(name));
+  std::vector<Path> changed;
+  for (const Path spec : arc_specs(editor.layer(), arc.from)) {
+    const bool references =
+        rename_in_list<layer::Reference>(editor, spec, fields::references, arc, now);
+    const bool payloads = rename_in_list<layer::Payload>(editor, spec, fields::payload, arc, now);
+    if (references || payloads) {
+      changed.push_back(spec);
+    }
   }
   return changed;
 }

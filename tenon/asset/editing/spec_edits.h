@@ -9,20 +9,26 @@
 #include "tenon/base/result.h"
 #include "tenon/base/token.h"
 #include "tenon/edit/layer_editor.h"
+#include "tenon/stage/sources/dependent_sites.h"
 
 /// Edits of all specs that one layer has of a prim, those inside of variants included. `prim` is
 /// its path there, without variant selections. Each returns the specs that changed. Internal to
 /// the wiring.
 namespace tenon {
 
-/// Removes them, and takes the prim and all below it out of targets and connections, whose
-/// properties go when nothing is left in them. Errors: Invalid (edit.in-use) where an arc leads
-/// there.
+/// Removes them, and takes the prim and all below it out of targets and connections, relocates and
+/// the default prim. A list that replaces weaker ones stays, if empty; a relationship that has none
+/// any more goes. Errors: Invalid (edit.in-use) where an arc leads there.
 Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim);
 
 /// Renames them, and the prim in all targets, connections and arcs of the layer, and in texts that
 /// are its path (path_texts.h).
 Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
+
+/// Renames the prim in references and payloads of a prim that lead to it or below it in another
+/// file.
+std::vector<Path> rename_in_asset_arcs(edit::LayerEditor& editor, const stage::Dependents::Arc& arc,
+                                       Token name);
 
 /// Renames the specs of a property, and the property in all targets and connections of the layer.
 Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path property,

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where an arc brings in what is below a prim, opinions on it stand under the same name; they are
+// edited as those of the prim itself are. The scenes are composed again afterwards and show whether
+// something else, which was not edited, still makes such a prim: then the edit is refused, because
+// opinions on it would be split.
+#include "tenon/asset/editing/dependent_edits.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "tenon/asset/editing/spec_edits.h"
+#include "tenon/base/text/shown_path.h"
+#include "tenon/stage/sources/opinion_sources.h"
+
+namespace tenon {
+namespace {
+
+using Kind = AssetEdit::Kind;
+
+void add(const stage::Dependents& more, stage::Dependents& all) {
+  all.sites.insert(more.sites.begin(), more.sites.end());
+  all.prims.insert(more.prims.begin(), more.prims.end());
+  all.arcs.insert(all.arcs.end(), more.arcs.begin(), more.arcs.end());
+}
+
+bool is_there(const AllFiles& files, Path prim) {
+  const auto has = [&](const auto& stage) { return bool(stage->prim(prim)); };
+  return std::any_of(files.stages.begin(), files.stages.end(), has) ||
+         std::any_of(files.other_variants.begin(), files.other_variants.end(), has);
+}
+
+Result<void> check_names(const AllFiles& files, const stage::Dependents& dependents,
+                         const AssetEdit& edit) {
+  for (const Path prim : dependents.prims) {
+    const Path to = prim.parent().child(Token(edit.value));
+    if (is_there(files, to)) {
+      Message message = "<" + prim.str() + "> is composed of <" + edit.object.str() +
+                        "> and cannot have the new name: " + named(to) + " is there already";
+      message.about(prim, RelatedRole::Prim);
+      return Error(ErrorCode::Invalid, message)
+          .with_prim(edit.object.str())
+          .with_rule("edit.prim-exists")
+          .with_fix("choose another name");
+    }
+  }
+  return {};
+}
+
+Result<void> check_no_arcs(const stage::Dependents& dependents) {
+  if (dependents.arcs.empty()) {
+    return {};
+  }
+  const stage::Dependents::Arc& arc = dependents.arcs.front();
+  return Error(ErrorCode::Invalid, named(arc.from) + " is made of <" + arc.to.str() + "> by an arc")
+      .in_file(arc.layers.front())
+      .with_prim(arc.to.str())
+      .with_rule("edit.in-use")
+      .with_fix("remove that prim first, or let its arc lead elsewhere");
+}
+
+Error not_editable(const std::string& layer, Path spec, const AssetEdit& edit) {
+  Message message = named(spec) + " depends on <" + edit.object.str() + ">, and " +
+                    shown_path(layer) + " cannot be edited";
+  message.about(spec, RelatedRole::Prim, layer);
+  return Error(ErrorCode::Invalid, message)
+      .in_file(layer)
+      .with_prim(edit.object.str())
+      .with_rule("edit.in-use")
+      .with_fix("remove what it says about that prim first");
+}
+
+EditedPlace place_of(const AssetEdit& edit, const std::string& layer, Path changed) {
+  EditedPlace place;
+  place.file = layer;
+  place.spec = changed;
+  place.why = "it depends on <" + edit.object.str() + ">";
+  const bool renames = edit.kind == Kind::RenamePrim;
+  if (changed.is_prim() && (!renames || changed.name() == Token(edit.value))) {
+    const Path before = renames ? changed.parent().child(edit.object.name()) : changed;
+    place.before = before.str();
+    place.after = renames ? changed.str() : "";
+    place.spec = renames ? changed : changed.parent();  // what is there to be shown
+  }
+  return place;
+}
+
+Result<void> edit_one(const AllFiles& files, const std::string& layer, Path spec,
+                      const AssetEdit& edit, std::vector<EditedPlace>& places,
+                      const Function<Result<std::vector<Path>>(edit::LayerEditor&)>& work) {
+  edit::StageEditor* const editor = files.editor_of(layer);
+  if (editor == nullptr) {
+    return not_editable(layer, spec, edit);
+  }
+  return editor->edit_layer(layer, [&](edit::LayerEditor& specs) -> Result<void> {
+    TENON_TRY(const std::vector<Path> changed, work(specs));
+    for (const Path place : changed) {
+      places.push_back(place_of(edit, layer, place));
+    }
+    return {};
+  });
+}
+
+}  // namespace
+
+Result<stage::Dependents> dependents_in(const AllFiles& files, const PrimSites& sites,
+                                        const AssetEdit& edit) {
+  stage::Dependents all;
+  if (edit.kind != Kind::RenamePrim && edit.kind != Kind::RemovePrim) {
+    return all;
+  }
+  const bool renames = edit.kind == Kind::RenamePrim;
+  for (const auto* stages : {&files.stages, &files.other_variants}) {
+    for (const auto& stage : *stages) {
+      add(stage::dependents_of(*stage, sites), all);
+    }
+  }
+  std::erase_if(all.prims,
+                [&](Path prim) { return prim == edit.object || !is_there(files, prim); });
+  TENON_CHECK(renames ? check_names(files, all, edit) : check_no_arcs(all));
+  return all;
+}
+
+Result<std::vector<EditedPlace>> edit_dependents(const AllFiles& files,
+                                                 const stage::Dependents& dependents,
+                                                 const AssetEdit& edit) {
+  std::vector<EditedPlace> places;
+  // What is below another one comes first.
+  std::vector<std::pair<std::string, Path>> sites(dependents.sites.begin(), dependents.sites.end());
+  std::stable_sort(sites.begin(), sites.end(), [](const auto& a, const auto& b) {
+    return a.second.depth() > b.second.depth();
+  });
+  for (const auto& [layer, site] : sites) {
+    const auto work = [&edit, at = site](edit::LayerEditor& specs) {
+      return edit.kind == Kind::RenamePrim ? rename_prim_specs(specs, at, Token(edit.value))
+                                           : remove_prim_specs(specs, at);
+    };
+    TENON_CHECK(edit_one(files, layer, site, edit, places, work));
+  }
+  if (edit.kind != Kind::RenamePrim) {
+    return places;
+  }
+  for (const stage::Dependents::Arc& arc : dependents.arcs) {
+    for (const std::string& layer : arc.layers) {
+      TENON_CHECK(edit_one(files, layer, arc.from, edit, places, [&](edit::LayerEditor& specs) {
+        return Result<std::vector<Path>>(rename_in_asset_arcs(specs, arc, Token(edit.value)));
+      }));
+    }
+  }
+  return places;
+}
+
+Result<void> check_dependents_followed(const stage::Stage& stage, const std::set<Path>& prims) {
+  for (const Path prim : prims) {
+    const auto sources = stage::opinion_sources(stage, prim);
+    if (!stage.prim(prim) || sources.empty()) {
+      continue;
+    }
+    Message message = "<" + prim.str() + "> depends on the prim and is still there: <" +
+                      sources.front().path.str() + "> of " +
+                      shown_path(sources.front().layer->identifier()) + " defines it too";
+    message.about(prim, RelatedRole::Prim);
+    return Error(ErrorCode::Invalid, message)
+        .in_file(sources.front().layer->identifier())
+        .at(sources.front().spec->line, 1)
+        .with_prim(prim.str())
+        .with_rule("edit.in-use")
+        .with_fix("rename or remove that one too, or what is said about the dependent prim, first");
+  }
+  return {};
+}
+
+}  // namespace tenon
