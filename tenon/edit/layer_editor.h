@@ -31,6 +31,8 @@ class LayerEditor {
     const layer::Spec* spec = layer_->find(path);
     return spec == nullptr ? fallback : spec->get_or(field, std::move(fallback));
   }
+  /// Something was changed since the editor was made or `take_change` was last called.
+  bool has_changes() const { return !touched_.empty(); }
   /// The change since the editor was made or this was last called, without unchanged specs.
   LayerChange take_change();
   /// Takes back what was done since then, and says what that changed.

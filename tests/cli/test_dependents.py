@@ -297,6 +297,25 @@ class Renamed(Case):
         self.assertIn("</R/Arm>", error)
         self.refused("edit.in-use", "remove", "root.usda", "/Model/Arm")
 
+    def test_a_dependent_that_nothing_is_said_about_may_stay(self):
+        """It is made of the other prim alone then, and no opinion is lost."""
+        self.write("root.usda", MODEL + '''
+            def "Other"
+            {
+                def "Arm"
+                {
+                    double size = 2
+                }
+            }
+            def "R" (
+                references = [</Model>, </Other>]
+            )
+            {
+            }
+        ''')  # fmt: skip
+        self.do("rename", "root.usda", "/Model/Arm", "Link")
+        self.assertEqual([self.value("/R/Link.mass"), self.value("/R/Arm.size")], [1, 2])
+
     def test_a_dependent_in_a_file_that_is_read_only_refuses_the_whole_edit(self):
         self.write("sub.usda", MODEL)
         self.write("middle.usda", '''

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tenon/asset/editing/dependent_edits.h"
+#include "tenon/asset/editing/path_texts.h"
 #include "tenon/asset/editing/prim_sites.h"
 #include "tenon/asset/editing/spec_edits.h"
 #include "tenon/asset/editing/stage_metadata.h"
@@ -20,12 +21,20 @@ namespace {
 
 using Kind = AssetEdit::Kind;
 
+Result<std::vector<Path>> rename_with_texts(edit::LayerEditor& editor, Path site, Token name) {
+  TENON_TRY(std::vector<Path> changed, rename_prim_specs(editor, site, name));
+  for (const Path spec : follow_in_texts(editor, {{site, site.parent().child(name)}})) {
+    changed.push_back(spec);
+  }
+  return changed;
+}
+
 Result<std::vector<Path>> edit_specs(edit::LayerEditor& editor, Path site, const AssetEdit& edit) {
   switch (edit.kind) {
     case Kind::RemovePrim:
       return remove_prim_specs(editor, site);
     case Kind::RenamePrim:
-      return rename_prim_specs(editor, site, Token(edit.value));
+      return rename_with_texts(editor, site, Token(edit.value));
     case Kind::RenameProperty:
       return rename_property_specs(editor, site.property(edit.object.name()), Token(edit.value));
     default:
@@ -165,11 +174,11 @@ Result<EditedSpecs> edit_in_all_files(const AllFiles& files, const AssetEdit& ed
     TENON_CHECK(check_new_name(files, edit));
   }
   TENON_TRY(const PrimSites sites, own_sites(files.stages, files.roles, edit.object.prim()));
-  TENON_TRY(stage::Dependents dependents, dependents_in(files, sites, edit));
+  TENON_TRY(const stage::Dependents dependents, dependents_in(files, sites, edit));
   TENON_TRY(edited.places, edit_own(files, sites, edit));
-  TENON_TRY(const std::vector<EditedPlace> more, edit_dependents(files, dependents, edit));
-  edited.places.insert(edited.places.end(), more.begin(), more.end());
-  edited.dependents = std::move(dependents.prims);
+  TENON_TRY(EditedSpecs more, edit_dependents(files, dependents, edit));
+  edited.places.insert(edited.places.end(), more.places.begin(), more.places.end());
+  edited.dependents = std::move(more.dependents);
   return edited;
 }
 

@@ -29,7 +29,7 @@ struct AllFiles {
 
 struct EditedSpecs {
   std::vector<EditedPlace> places;  ///< one for each file, and for each list that lost a target
-  std::set<Path> dependents;        ///< prims that were composed of the one that was edited
+  std::set<Path> dependents;        ///< prims composed of the edited one, with what followed
 };
 
 /// Makes the edit, and lets what depends on the prim follow. Errors: those of prim_sites.h,

@@ -8,9 +8,11 @@
 #include "tenon/asset/editing/dependent_edits.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
+#include "tenon/asset/editing/path_texts.h"
 #include "tenon/asset/editing/spec_edits.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/stage/sources/opinion_sources.h"
@@ -22,7 +24,9 @@ using Kind = AssetEdit::Kind;
 
 void add(const stage::Dependents& more, stage::Dependents& all) {
   all.sites.insert(more.sites.begin(), more.sites.end());
-  all.prims.insert(more.prims.begin(), more.prims.end());
+  for (const auto& [prim, sites] : more.prims) {
+    all.prims[prim].insert(sites.begin(), sites.end());
+  }
   all.arcs.insert(all.arcs.end(), more.arcs.begin(), more.arcs.end());
 }
 
@@ -34,7 +38,7 @@ bool is_there(const AllFiles& files, Path prim) {
 
 Result<void> check_names(const AllFiles& files, const stage::Dependents& dependents,
                          const AssetEdit& edit) {
-  for (const Path prim : dependents.prims) {
+  for (const auto& [prim, sites] : dependents.prims) {
     const Path to = prim.parent().child(Token(edit.value));
     if (is_there(files, to)) {
       Message message = "<" + prim.str() + "> is composed of <" + edit.object.str() +
@@ -87,20 +91,78 @@ EditedPlace place_of(const AssetEdit& edit, const std::string& layer, Path chang
   return place;
 }
 
-Result<void> edit_one(const AllFiles& files, const std::string& layer, Path spec,
+/// True where something changed.
+Result<bool> edit_one(const AllFiles& files, const std::string& layer, Path spec,
                       const AssetEdit& edit, std::vector<EditedPlace>& places,
                       const Function<Result<std::vector<Path>>(edit::LayerEditor&)>& work) {
   edit::StageEditor* const editor = files.editor_of(layer);
   if (editor == nullptr) {
     return not_editable(layer, spec, edit);
   }
-  return editor->edit_layer(layer, [&](edit::LayerEditor& specs) -> Result<void> {
+  bool has_changes = false;
+  TENON_CHECK(editor->edit_layer(layer, [&](edit::LayerEditor& specs) -> Result<void> {
     TENON_TRY(const std::vector<Path> changed, work(specs));
     for (const Path place : changed) {
       places.push_back(place_of(edit, layer, place));
     }
+    has_changes = specs.has_changes();
     return {};
-  });
+  }));
+  return has_changes;
+}
+
+/// The sites of dependents in one layer.
+struct LayerSites {
+  const std::string& layer;
+  const std::set<Path>& paths;
+};
+
+/// There may be many sites that the layer does not name. What is below another one comes
+/// first.
+Result<void> edit_layer(const AllFiles& files, const LayerSites& sites, const AssetEdit& edit,
+                        std::vector<EditedPlace>& places,
+                        std::set<stage::Dependents::Site>& changed) {
+  edit::StageEditor* const editor = files.editor_of(sites.layer);
+  if (editor == nullptr) {
+    return not_editable(sites.layer, *sites.paths.begin(), edit);
+  }
+  const bool renames = edit.kind == Kind::RenamePrim;
+  const std::set<Path> mentioned = mentioned_prims(*editor->layer(sites.layer), sites.paths);
+  for (auto site = mentioned.rbegin(); site != mentioned.rend(); ++site) {
+    const auto work = [&](edit::LayerEditor& specs) {
+      return renames ? rename_prim_specs(specs, *site, Token(edit.value))
+                     : remove_prim_specs(specs, *site);
+    };
+    TENON_TRY(const bool has_changes, edit_one(files, sites.layer, *site, edit, places, work));
+    if (has_changes) {
+      changed.emplace(sites.layer, *site);
+    }
+  }
+  if (!renames) {
+    return {};
+  }
+  PrimMoves moves;
+  for (const Path path : sites.paths) {
+    moves.emplace(path, path.parent().child(Token(edit.value)));
+  }
+  const auto work = [&](edit::LayerEditor& specs) {
+    return Result<std::vector<Path>>(follow_in_texts(specs, moves));
+  };
+  TENON_TRY([[maybe_unused]] const bool has_changes,
+            edit_one(files, sites.layer, *sites.paths.begin(), edit, places, work));
+  return {};
+}
+
+Result<void> rename_in_arcs(const AllFiles& files, const stage::Dependents& dependents,
+                            const AssetEdit& edit, std::vector<EditedPlace>& places) {
+  for (const stage::Dependents::Arc& arc : dependents.arcs) {
+    for (const std::string& layer : arc.layers) {
+      TENON_CHECK(edit_one(files, layer, arc.from, edit, places, [&](edit::LayerEditor& specs) {
+        return Result<std::vector<Path>>(rename_in_asset_arcs(specs, arc, Token(edit.value)));
+      }));
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -117,39 +179,34 @@ Result<stage::Dependents> dependents_in(const AllFiles& files, const PrimSites& 
       add(stage::dependents_of(*stage, sites), all);
     }
   }
-  std::erase_if(all.prims,
-                [&](Path prim) { return prim == edit.object || !is_there(files, prim); });
+  std::erase_if(all.prims, [&](const auto& prim) {
+    return prim.first == edit.object || !is_there(files, prim.first);
+  });
   TENON_CHECK(renames ? check_names(files, all, edit) : check_no_arcs(all));
   return all;
 }
 
-Result<std::vector<EditedPlace>> edit_dependents(const AllFiles& files,
-                                                 const stage::Dependents& dependents,
-                                                 const AssetEdit& edit) {
-  std::vector<EditedPlace> places;
-  // What is below another one comes first.
-  std::vector<std::pair<std::string, Path>> sites(dependents.sites.begin(), dependents.sites.end());
-  std::stable_sort(sites.begin(), sites.end(), [](const auto& a, const auto& b) {
-    return a.second.depth() > b.second.depth();
-  });
-  for (const auto& [layer, site] : sites) {
-    const auto work = [&edit, at = site](edit::LayerEditor& specs) {
-      return edit.kind == Kind::RenamePrim ? rename_prim_specs(specs, at, Token(edit.value))
-                                           : remove_prim_specs(specs, at);
-    };
-    TENON_CHECK(edit_one(files, layer, site, edit, places, work));
+Result<EditedSpecs> edit_dependents(const AllFiles& files, const stage::Dependents& dependents,
+                                    const AssetEdit& edit) {
+  EditedSpecs edited;
+  std::map<std::string, std::set<Path>> sites;
+  for (const auto& [layer, site] : dependents.sites) {
+    sites[layer].insert(site);
   }
-  if (edit.kind != Kind::RenamePrim) {
-    return places;
+  std::set<stage::Dependents::Site> changed;
+  for (const auto& [layer, paths] : sites) {
+    TENON_CHECK(edit_layer(files, {layer, paths}, edit, edited.places, changed));
   }
-  for (const stage::Dependents::Arc& arc : dependents.arcs) {
-    for (const std::string& layer : arc.layers) {
-      TENON_CHECK(edit_one(files, layer, arc.from, edit, places, [&](edit::LayerEditor& specs) {
-        return Result<std::vector<Path>>(rename_in_asset_arcs(specs, arc, Token(edit.value)));
-      }));
+  for (const auto& [prim, its_sites] : dependents.prims) {
+    if (std::any_of(its_sites.begin(), its_sites.end(),
+                    [&](const auto& site) { return changed.contains(site); })) {
+      edited.dependents.insert(prim);
     }
   }
-  return places;
+  if (edit.kind == Kind::RenamePrim) {
+    TENON_CHECK(rename_in_arcs(files, dependents, edit, edited.places));
+  }
+  return edited;
 }
 
 Result<void> check_dependents_followed(const stage::Stage& stage, const std::set<Path>& prims) {

@@ -20,14 +20,14 @@ namespace tenon {
 Result<stage::Dependents> dependents_in(const AllFiles& files, const PrimSites& sites,
                                         const AssetEdit& edit);
 
-/// Lets their specs, and what names them, follow; a place for each spec. Errors: Invalid
-/// (edit.in-use) where a layer cannot be edited, and those of spec_edits.h.
-Result<std::vector<EditedPlace>> edit_dependents(const AllFiles& files,
-                                                 const stage::Dependents& dependents,
-                                                 const AssetEdit& edit);
+/// Lets their specs, and what names them, follow: a place for each spec, and those of the prims
+/// that something was said about. Errors: Invalid (edit.in-use) where a layer cannot be edited, and
+/// those of spec_edits.h.
+Result<EditedSpecs> edit_dependents(const AllFiles& files, const stage::Dependents& dependents,
+                                    const AssetEdit& edit);
 
-/// Looks whether the scene has none of `prims`, the dependents as they were, any more. Errors:
-/// Invalid (edit.in-use).
+/// Looks whether the scene has none of `prims` any more, dependents as they were: what was said
+/// about them would be split. Errors: Invalid (edit.in-use).
 Result<void> check_dependents_followed(const stage::Stage& stage, const std::set<Path>& prims);
 
 }  // namespace tenon

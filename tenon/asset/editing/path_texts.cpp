@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// A text counts as a path where it is one of the prims' paths up to its end, a '/' or a '.'. Such
+// heads of a text are looked up from the longest down, so that many prims cost no more than one.
 #include "tenon/asset/editing/path_texts.h"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,14 +23,24 @@ namespace fields = layer::fields;
 
 class PathTexts {
  public:
-  PathTexts(Path prim, Path to) : from_(prim.str()), to_(to.str()) {}
+  explicit PathTexts(const PrimMoves& moves) {
+    for (const auto& [from, to] : moves) {
+      moves_.emplace(from.str(), to.str());
+    }
+  }
 
   /// Nothing: it stays.
   std::optional<std::string> moved(const std::string& text) const {
-    const bool below =
-        text.starts_with(from_) &&
-        (text.size() == from_.size() || text[from_.size()] == '/' || text[from_.size()] == '.');
-    return below ? std::optional(to_ + text.substr(from_.size())) : std::nullopt;
+    if (!text.starts_with('/')) {
+      return std::nullopt;
+    }
+    for (std::size_t end = text.size(); end > 0; end = text.find_last_of("/.", end - 1)) {
+      const auto known = moves_.find(std::string_view(text).substr(0, end));
+      if (known != moves_.end()) {
+        return known->second + text.substr(end);
+      }
+    }
+    return std::nullopt;
   }
 
   std::optional<Value> moved_value(const Value& value) const {
@@ -106,14 +120,13 @@ class PathTexts {
     }
   }
 
-  std::string from_;
-  std::string to_;
+  std::map<std::string, std::string, std::less<>> moves_;
 };
 
 }  // namespace
 
-std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to) {
-  const PathTexts texts(prim, to);
+std::vector<Path> follow_in_texts(edit::LayerEditor& editor, const PrimMoves& moves) {
+  const PathTexts texts(moves);
   struct TextChange {
     Path spec;
     Token field;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "tenon/base/path.h"
@@ -10,10 +11,13 @@
 /// Internal to this folder.
 namespace tenon {
 
-/// Lets texts that are nothing but the path of `prim`, or of something below it, name `to` instead:
-/// strings and tokens in values of attributes, custom data, asset information and custom data of
-/// the layer, keys of dictionaries too (maps of names for prims are written so). The specs that
-/// changed.
-std::vector<Path> follow_in_texts(edit::LayerEditor& editor, Path prim, Path to);
+/// Prims that get other paths.
+using PrimMoves = std::map<Path, Path>;
+
+/// Lets texts that are nothing but the path of one of the prims, or of something below it, name its
+/// new path instead: strings and tokens in values of attributes, custom data, asset information and
+/// custom data of the layer, keys of dictionaries too (maps of names for prims are written so). The
+/// specs that changed.
+std::vector<Path> follow_in_texts(edit::LayerEditor& editor, const PrimMoves& moves);
 
 }  // namespace tenon

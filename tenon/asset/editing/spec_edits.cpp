@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "tenon/asset/editing/path_texts.h"
 #include "tenon/edit/default_prim.h"
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/fields.h"
@@ -168,7 +167,69 @@ bool is_done(const edit::LayerEditor& editor, Path property) {
          !spec->has(fields::targetPaths);
 }
 
+/// Looks which of some prims paths are at or below.
+class Mentions {
+ public:
+  explicit Mentions(const std::set<Path>& prims) : prims_(prims) {}
+
+  void note(Path path) {
+    for (Path at = path; !at.empty() && !at.is_absolute_root(); at = at.parent()) {
+      if (prims_.contains(at)) {
+        found_.insert(at);
+      }
+    }
+  }
+
+  void note_value(const layer::Value& value) {
+    note_list<Path>(value);
+    note_list<layer::Reference>(value);
+    note_list<layer::Payload>(value);
+    if (const auto* relocates = value.get<layer::Relocates>()) {
+      for (const auto& [source, target] : relocates->pairs) {
+        note(source);
+        note(target);
+      }
+    }
+  }
+
+  const std::set<Path>& found() const { return found_; }
+
+ private:
+  void note_item(Path path) { note(path); }
+  template <class Arc>
+  void note_item(const Arc& arc) {
+    note(arc.asset_path.empty() ? arc.prim_path : Path());
+  }
+
+  template <class T>
+  void note_list(const layer::Value& value) {
+    if (const auto* op = value.get<layer::ListOp<T>>()) {
+      layer::ListOp<T> copy = *op;
+      for (const std::vector<T>* list : all_lists(copy)) {
+        for (const T& item : *list) {
+          note_item(item);
+        }
+      }
+    }
+  }
+
+  const std::set<Path>& prims_;
+  std::set<Path> found_;
+};
+
 }  // namespace
+
+std::set<Path> mentioned_prims(const layer::Layer& layer, const std::set<Path>& prims) {
+  Mentions mentions(prims);
+  mentions.note(edit::default_prim_path(layer.default_prim()));
+  for (const layer::Layer::Entry& entry : layer.entries()) {
+    mentions.note(entry.path.strip_variants());
+    for (const layer::Field& field : entry.spec.fields()) {
+      mentions.note_value(field.value);
+    }
+  }
+  return mentions.found();
+}
 
 Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim) {
   TENON_CHECK(check_no_arc_leads_to(editor.layer(), prim));
@@ -207,9 +268,6 @@ Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim
     changed.push_back(moved);
   }
   editor.retarget(prim, to);
-  for (const Path spec : follow_in_texts(editor, prim, to)) {
-    changed.push_back(spec);
-  }
   return changed;
 }
 

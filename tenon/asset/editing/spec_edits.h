@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,11 @@ namespace tenon {
 /// any more goes. Errors: Invalid (edit.in-use) where an arc leads there.
 Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim);
 
-/// Renames them, and the prim in all targets, connections and arcs of the layer, and in texts that
-/// are its path (path_texts.h).
+/// Those of the prims that specs of the layer are about or name, texts not included.
+std::set<Path> mentioned_prims(const layer::Layer& layer, const std::set<Path>& prims);
+
+/// Renames them, and the prim in all targets, connections and arcs of the layer, not in texts
+/// (path_texts.h).
 Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
 
 /// Renames the prim in references and payloads of a prim that lead to it or below it in another

@@ -43,9 +43,6 @@ class DependentSearch {
       const std::vector<Prim> children = at.children();
       open.insert(open.end(), children.begin(), children.end());
     }
-    for (const auto& site : sites_) {
-      found_.sites.erase(site);
-    }
     return std::move(found_);
   }
 
@@ -96,6 +93,8 @@ class DependentSearch {
     const compose::Nodes nodes = index_->nodes();
     std::vector<Place> open{start};
     std::set<std::pair<std::uint32_t, Path>> seen;
+    std::set<Dependents::Site> sites;
+    std::vector<Path> prims;
     while (!open.empty()) {
       const Place place = open.back();
       open.pop_back();
@@ -103,10 +102,10 @@ class DependentSearch {
         continue;
       }
       const Node node = nodes[place.node];
-      note_site(*node.layer_stack, place.path);
+      add_sites(*node.layer_stack, place.path, sites);
       add_implied(place, open);
       if (node.parent == compose::kNoNode) {
-        note_prim(place.path);
+        add_prims(place.path, prims, sites);
       } else if (place.path == node.path.strip_variants() && ends_here(node)) {
         note_arc(node, nodes[node.parent], place.path);
       } else {
@@ -115,6 +114,17 @@ class DependentSearch {
             {node.parent, place.path.replace_prefix(node.path.strip_variants(), parent)});
       }
     }
+    note(prims, std::move(sites));
+  }
+
+  void note(const std::vector<Path>& prims, std::set<Dependents::Site> sites) {
+    for (const auto& own : sites_) {
+      sites.erase(own);
+    }
+    for (const Path prim : prims) {
+      found_.prims[prim].insert(sites.begin(), sites.end());
+    }
+    found_.sites.merge(sites);
   }
 
   void add_implied(const Place& place, std::vector<Place>& open) const {
@@ -130,19 +140,19 @@ class DependentSearch {
     }
   }
 
-  void note_site(const LayerStack& stack, Path path) {
+  static void add_sites(const LayerStack& stack, Path path, std::set<Dependents::Site>& sites) {
     for (std::string& layer : layers_of(stack)) {
-      found_.sites.emplace(std::move(layer), path);
+      sites.emplace(std::move(layer), path);
     }
   }
 
   /// Below an instance each proxy is a prim of its own, though composed once.
-  void note_prim(Path path) {
-    found_.prims.insert(path);
+  void add_prims(Path path, std::vector<Path>& prims, std::set<Dependents::Site>& sites) const {
+    prims.push_back(path);
     if (prim_ != index_->path && path.has_prefix(index_->path)) {
       const Path proxy = path.replace_prefix(index_->path, prim_);
-      found_.prims.insert(proxy);
-      note_site(stage_.layer_stack(), proxy);
+      prims.push_back(proxy);
+      add_sites(stage_.layer_stack(), proxy, sites);
     }
   }
 

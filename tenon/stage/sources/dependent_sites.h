@@ -16,11 +16,14 @@ namespace tenon::stage {
 /// What depends on the name of a prim because it is composed of it: over arcs of prims above it, so
 /// that it has the same name, or over an arc that names its path.
 struct Dependents {
-  /// Layers (by identifier) and paths, without variant selections, where opinions on such prims
-  /// stand or would stand.
-  std::set<std::pair<std::string, Path>> sites;
-  /// The prims as the stage names them, below instances too, whether they are there or not.
-  std::set<Path> prims;
+  /// A layer, by identifier, and a path in it without variant selections.
+  using Site = std::pair<std::string, Path>;
+
+  /// Where opinions on such prims stand or would stand.
+  std::set<Site> sites;
+  /// The prims as the stage names them, below instances too, whether they are there or not, and of
+  /// `sites` those of each.
+  std::map<Path, std::set<Site>> prims;
   /// References and payloads from other layer stacks that lead to the prim or below it.
   struct Arc {
     std::vector<std::string> layers;  ///< of the stack that has it, by identifier

@@ -23,7 +23,7 @@ std::set<std::string> sites_of(const Dependents& dependents) {
 
 std::set<std::string> prims_of(const Dependents& dependents) {
   std::set<std::string> texts;
-  for (const Path prim : dependents.prims) {
+  for (const auto& [prim, sites] : dependents.prims) {
     texts.insert(prim.str());
   }
   return texts;
