@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -31,8 +32,6 @@ class LayerEditor {
     const layer::Spec* spec = layer_->find(path);
     return spec == nullptr ? fallback : spec->get_or(field, std::move(fallback));
   }
-  /// Something was changed since the editor was made or `take_change` was last called.
-  bool has_changes() const { return !touched_.empty(); }
   /// The change since the editor was made or this was last called, without unchanged specs.
   LayerChange take_change();
   /// Takes back what was done since then, and says what that changed.
@@ -88,7 +87,9 @@ class LayerEditor {
 
   /// In all specs: targets, connections and arcs within this layer stack that lead to `from` or
   /// below lead to `to` instead.
-  void retarget(Path from, Path to);
+  void retarget(Path from, Path to) { retarget(std::map<Path, Path>{std::pair(from, to)}); }
+  /// The same for many, in one pass; each stays below its parent.
+  void retarget(const std::map<Path, Path>& moves);
 
  private:
   layer::Spec& touch(Path path);

@@ -12,25 +12,41 @@ namespace {
 using layer::Value;
 namespace fields = layer::fields;
 
-struct Move {
-  Path from;
-  Path to;
-};
+using Moves = std::map<Path, Path>;
 
-bool follow(Path& path, const Move& move) {
-  const Path now = path.replace_prefix(move.from, move.to);
-  const bool changed = !(now == path);
-  path = now;
+/// Paths with targets in them name prims in several places.
+bool follow_each(Path& path, const Moves& moves) {
+  const Path before = path;
+  for (auto move = moves.rbegin(); move != moves.rend(); ++move) {  // what is below comes first
+    path = path.replace_prefix(move->first, move->second);
+  }
+  return !(path == before);
+}
+
+bool follow(Path& path, const Moves& moves) {
+  const bool is_plain = path.is_prim_or_variant() ||
+                        (path.is_direct_property() && path.parent().is_prim_or_variant());
+  if (moves.size() == 1 || !is_plain) {
+    return follow_each(path, moves);
+  }
+  bool changed = false;
+  for (Path at = path; !at.empty() && !at.is_absolute_root(); at = at.parent()) {
+    const auto move = moves.find(at);
+    if (move != moves.end()) {
+      path = path.replace_prefix(at, move->second);
+      changed = true;
+    }
+  }
   return changed;
 }
 
 template <class Arc>
-bool follow(Arc& arc, const Move& move) {
-  return arc.asset_path.empty() && !arc.prim_path.empty() && follow(arc.prim_path, move);
+bool follow(Arc& arc, const Moves& moves) {
+  return arc.asset_path.empty() && !arc.prim_path.empty() && follow(arc.prim_path, moves);
 }
 
 template <class T>
-bool follow_list(Value& value, const Move& move) {
+bool follow_list(Value& value, const Moves& moves) {
   const auto* op = value.get<layer::ListOp<T>>();
   if (op == nullptr) {
     return false;
@@ -40,7 +56,7 @@ bool follow_list(Value& value, const Move& move) {
   for (std::vector<T>* list : {&now.explicit_items, &now.prepended, &now.appended, &now.deleted,
                                &now.added, &now.ordered}) {
     for (T& item : *list) {
-      changed = follow(item, move) || changed;
+      changed = follow(item, moves) || changed;
     }
   }
   if (changed) {
@@ -49,7 +65,7 @@ bool follow_list(Value& value, const Move& move) {
   return changed;
 }
 
-bool follow_relocates(Value& value, const Move& move) {
+bool follow_relocates(Value& value, const Moves& moves) {
   const auto* relocates = value.get<layer::Relocates>();
   if (relocates == nullptr) {
     return false;
@@ -57,8 +73,8 @@ bool follow_relocates(Value& value, const Move& move) {
   layer::Relocates now = *relocates;
   bool changed = false;
   for (auto& [source, target] : now.pairs) {
-    changed = follow(source, move) || changed;
-    changed = (!target.empty() && follow(target, move)) || changed;
+    changed = follow(source, moves) || changed;
+    changed = (!target.empty() && follow(target, moves)) || changed;
   }
   if (changed) {
     value = Value(std::move(now));
@@ -66,10 +82,10 @@ bool follow_relocates(Value& value, const Move& move) {
   return changed;
 }
 
-bool follow_default_prim(Value& value, const Move& move) {
+bool follow_default_prim(Value& value, const Moves& moves) {
   const auto* text = value.get<Token>();
   Path path = text == nullptr ? Path() : default_prim_path(*text);
-  if (path.empty() || !follow(path, move)) {
+  if (path.empty() || !follow(path, moves)) {
     return false;
   }
   const bool as_name = text->view().front() != '/' && path.parent().is_absolute_root();
@@ -77,26 +93,26 @@ bool follow_default_prim(Value& value, const Move& move) {
   return true;
 }
 
-bool follow_field(Token name, Value& value, const Move& move) {
+bool follow_field(Token name, Value& value, const Moves& moves) {
   if (name == fields::targetPaths || name == fields::connectionPaths ||
       name == fields::inheritPaths || name == fields::specializes) {
-    return follow_list<Path>(value, move);
+    return follow_list<Path>(value, moves);
   }
   if (name == fields::references) {
-    return follow_list<layer::Reference>(value, move);
+    return follow_list<layer::Reference>(value, moves);
   }
   if (name == fields::payload) {
-    return follow_list<layer::Payload>(value, move);
+    return follow_list<layer::Payload>(value, moves);
   }
   if (name == fields::layerRelocates) {
-    return follow_relocates(value, move);
+    return follow_relocates(value, moves);
   }
-  return name == fields::defaultPrim && follow_default_prim(value, move);
+  return name == fields::defaultPrim && follow_default_prim(value, moves);
 }
 
 }  // namespace
 
-void LayerEditor::retarget(Path from, Path to) {
+void LayerEditor::retarget(const Moves& moves) {
   std::vector<Path> paths;
   for (const layer::Layer::Entry& entry : layer_->entries()) {
     if (!entry.path.empty()) {
@@ -108,7 +124,7 @@ void LayerEditor::retarget(Path from, Path to) {
     const layer::FieldList spec_fields = spec == nullptr ? layer::FieldList() : spec->field_list();
     for (const layer::Field& field : spec_fields.items()) {
       Value value = field.value;
-      if (follow_field(field.name, value, {from, to})) {
+      if (follow_field(field.name, value, moves)) {
         set(path, field.name, std::move(value));
       }
     }

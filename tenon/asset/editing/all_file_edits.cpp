@@ -22,8 +22,9 @@ namespace {
 using Kind = AssetEdit::Kind;
 
 Result<std::vector<Path>> rename_with_texts(edit::LayerEditor& editor, Path site, Token name) {
-  TENON_TRY(std::vector<Path> changed, rename_prim_specs(editor, site, name));
-  for (const Path spec : follow_in_texts(editor, {{site, site.parent().child(name)}})) {
+  TENON_TRY(std::vector<Path> changed, rename_prim_specs(editor, {site}, name));
+  for (const Path spec :
+       follow_in_texts(editor, PrimMoves{std::pair(site, site.parent().child(name))})) {
     changed.push_back(spec);
   }
   return changed;

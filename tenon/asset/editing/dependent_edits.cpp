@@ -91,24 +91,20 @@ EditedPlace place_of(const AssetEdit& edit, const std::string& layer, Path chang
   return place;
 }
 
-/// True where something changed.
-Result<bool> edit_one(const AllFiles& files, const std::string& layer, Path spec,
+Result<void> edit_one(const AllFiles& files, const std::string& layer, Path spec,
                       const AssetEdit& edit, std::vector<EditedPlace>& places,
                       const Function<Result<std::vector<Path>>(edit::LayerEditor&)>& work) {
   edit::StageEditor* const editor = files.editor_of(layer);
   if (editor == nullptr) {
     return not_editable(layer, spec, edit);
   }
-  bool has_changes = false;
-  TENON_CHECK(editor->edit_layer(layer, [&](edit::LayerEditor& specs) -> Result<void> {
+  return editor->edit_layer(layer, [&](edit::LayerEditor& specs) -> Result<void> {
     TENON_TRY(const std::vector<Path> changed, work(specs));
     for (const Path place : changed) {
       places.push_back(place_of(edit, layer, place));
     }
-    has_changes = specs.has_changes();
     return {};
-  }));
-  return has_changes;
+  });
 }
 
 /// The sites of dependents in one layer.
@@ -126,31 +122,32 @@ Result<void> edit_layer(const AllFiles& files, const LayerSites& sites, const As
   if (editor == nullptr) {
     return not_editable(sites.layer, *sites.paths.begin(), edit);
   }
-  const bool renames = edit.kind == Kind::RenamePrim;
   const std::set<Path> mentioned = mentioned_prims(*editor->layer(sites.layer), sites.paths);
-  for (auto site = mentioned.rbegin(); site != mentioned.rend(); ++site) {
-    const auto work = [&](edit::LayerEditor& specs) {
-      return renames ? rename_prim_specs(specs, *site, Token(edit.value))
-                     : remove_prim_specs(specs, *site);
-    };
-    TENON_TRY(const bool has_changes, edit_one(files, sites.layer, *site, edit, places, work));
-    if (has_changes) {
-      changed.emplace(sites.layer, *site);
+  for (const Path site : mentioned) {
+    changed.emplace(sites.layer, site);
+  }
+  const auto remove = [&](edit::LayerEditor& specs) -> Result<std::vector<Path>> {
+    std::vector<Path> all;
+    for (auto site = mentioned.rbegin(); site != mentioned.rend(); ++site) {
+      TENON_TRY(const std::vector<Path> those, remove_prim_specs(specs, *site));
+      all.insert(all.end(), those.begin(), those.end());
     }
-  }
-  if (!renames) {
-    return {};
-  }
-  PrimMoves moves;
-  for (const Path path : sites.paths) {
-    moves.emplace(path, path.parent().child(Token(edit.value)));
-  }
-  const auto work = [&](edit::LayerEditor& specs) {
-    return Result<std::vector<Path>>(follow_in_texts(specs, moves));
+    return all;
   };
-  TENON_TRY([[maybe_unused]] const bool has_changes,
-            edit_one(files, sites.layer, *sites.paths.begin(), edit, places, work));
-  return {};
+  const auto rename = [&](edit::LayerEditor& specs) -> Result<std::vector<Path>> {
+    const Token name(edit.value);
+    TENON_TRY(std::vector<Path> all, rename_prim_specs(specs, mentioned, name));
+    PrimMoves moves;
+    for (const Path path : sites.paths) {
+      moves.emplace(path, path.parent().child(name));
+    }
+    const std::vector<Path> texts = follow_in_texts(specs, moves);
+    all.insert(all.end(), texts.begin(), texts.end());
+    return all;
+  };
+  return edit.kind == Kind::RenamePrim
+             ? edit_one(files, sites.layer, *sites.paths.begin(), edit, places, rename)
+             : edit_one(files, sites.layer, *sites.paths.begin(), edit, places, remove);
 }
 
 Result<void> rename_in_arcs(const AllFiles& files, const stage::Dependents& dependents,

@@ -7,6 +7,7 @@
 #include "tenon/asset/editing/spec_edits.h"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -259,15 +260,28 @@ Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim
   return changed;
 }
 
-Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name) {
-  const Path to = prim.parent().child(name);
+Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, const std::set<Path>& prims,
+                                            Token name) {
+  std::vector<Path> specs;
+  for (const layer::Layer::Entry& entry : editor.layer().entries()) {
+    if (entry.path.is_prim() && prims.contains(entry.path.strip_variants())) {
+      specs.push_back(entry.path);
+    }
+  }
+  // What is below another one comes first.
+  std::stable_sort(specs.begin(), specs.end(),
+                   [](Path a, Path b) { return a.depth() > b.depth(); });
   std::vector<Path> changed;
-  for (const Path spec : prim_specs(editor.layer(), prim)) {
+  for (const Path spec : specs) {
     const Path moved = spec.parent().child(name);
     TENON_CHECK(editor.move_prim(spec, moved));
     changed.push_back(moved);
   }
-  editor.retarget(prim, to);
+  std::map<Path, Path> moves;
+  for (const Path prim : prims) {
+    moves.emplace(prim, prim.parent().child(name));
+  }
+  editor.retarget(moves);
   return changed;
 }
 

@@ -25,9 +25,10 @@ Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim
 /// Those of the prims that specs of the layer are about or name, texts not included.
 std::set<Path> mentioned_prims(const layer::Layer& layer, const std::set<Path>& prims);
 
-/// Renames them, and the prim in all targets, connections and arcs of the layer, not in texts
-/// (path_texts.h).
-Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, Path prim, Token name);
+/// Renames those of each of the prims, and the prims in all targets, connections and arcs of the
+/// layer, not in texts (path_texts.h).
+Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, const std::set<Path>& prims,
+                                            Token name);
 
 /// Renames the prim in references and payloads of a prim that lead to it or below it in another
 /// file.
