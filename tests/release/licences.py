@@ -48,7 +48,9 @@ def files_used(build):
                 if (word.endswith(".a") or SHARED.search(word)) and os.path.isabs(word):
                     used.add(os.path.realpath(word))
     own = (ROOT + "/", os.path.realpath(build) + "/")
-    return {path for path in used if not path.startswith(own) or FETCHED.search(path)}
+    # A compiler that does not escape spaces in its lists leaves pieces of this project's own path.
+    return {path for path in used
+            if os.path.isfile(path) and (not path.startswith(own) or FETCHED.search(path))}
 
 
 def packages_of(paths):
