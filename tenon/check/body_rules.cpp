@@ -23,9 +23,10 @@ double ratio_of(const Vec3d& scale) {
 }  // namespace
 
 void check_body_scale(const Subject& subject, Reporter& report) {
+  stage::TransformCache worlds(stage::Time{});
   for (const scene::Body& body : subject.scene.bodies) {
     const stage::Prim prim = subject.stage.prim(body.path);
-    const Factored parts = factor(stage::local_to_world(prim, {}));
+    const Factored parts = factor(worlds.local_to_world(prim));
     // A shape that is the body itself is as good as a shape of other proportions.
     if (ratio_of(parts.scale) > kScaleRatio && !parts.sheared && !prim.is_a("Gprim")) {
       report.at(prim,
@@ -39,9 +40,10 @@ void check_body_scale(const Subject& subject, Reporter& report) {
 
 // S-34
 void check_body_mirror(const Subject& subject, Reporter& report) {
+  stage::TransformCache worlds(stage::Time{});
   for (const scene::Body& body : subject.scene.bodies) {
     const stage::Prim prim = subject.stage.prim(body.path);
-    if (determinant(upper_left(stage::local_to_world(prim, {}))) < 0) {
+    if (determinant(upper_left(worlds.local_to_world(prim))) < 0) {
       report.at(prim,
                 "the body is mirrored by a negative scale; its shapes are mirrored, its frame is "
                 "not, and engines differ in the frame",

@@ -275,12 +275,13 @@ void check_physx_ellipsoids(const Subject& subject, Reporter& report) {
 // S-33, S-56
 void check_physx_shear(const Subject& subject, Reporter& report) {
   std::set<Path> told;  // a mesh of several pieces has several colliders
+  stage::TransformCache worlds(stage::Time{});
   for (const Collider& collider : subject.scene.colliders) {
     const stage::Prim prim = subject.stage.prim(collider.path);
     if (!prim || !collider.enabled || !keeps_shear(collider.shape)) {
       continue;
     }
-    const Mat4d world = stage::local_to_world(prim, {});
+    const Mat4d world = worlds.local_to_world(prim);
     if (factor(world).sheared && told.insert(collider.path).second) {
       const auto stretch = [&](const Vec3d& axis) {
         return digits(length(axis * upper_left(world)));

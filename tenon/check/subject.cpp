@@ -113,6 +113,14 @@ void Reporter::at(const stage::Prim& prim, Token property, const Message& messag
 
 void Reporter::at_target(const stage::Prim& prim, Token property, Path target,
                          const Message& message, std::string fix) {
+  constexpr std::size_t kMostPlaced = 32;
+  std::string place = prim.path().str() + "." + property.str();
+  placed_ = place == placed_on_ ? placed_ + 1 : 1;
+  placed_on_ = std::move(place);
+  if (placed_ > kMostPlaced) {
+    at(prim, property, message, std::move(fix));
+    return;
+  }
   const auto found_at = [&](const auto& opinions) {
     return opinions.located_target(rule_->severity, std::string(rule_->id), message, target);
   };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -49,7 +50,9 @@ class Reporter {
   /// At the strongest opinion on a property, or on the prim where there is none.
   void at(const stage::Prim& prim, Token property, const Message& message, std::string fix,
           StatementPart part = {});
-  /// At one target or connection of a property, given in the stage's namespace.
+  /// At one target or connection of a property, given in the stage's namespace. Only the first 32
+  /// of a property have their own place; the others have that of the property, since a place takes
+  /// a look at all targets.
   void at_target(const stage::Prim& prim, Token property, Path target, const Message& message,
                  std::string fix);
   /// At the top of the root layer, or at a field of it.
@@ -61,6 +64,8 @@ class Reporter {
 
   const Rule* rule_;
   std::vector<Diagnostic>* out_;
+  std::string placed_on_;   ///< the property of the last target
+  std::size_t placed_ = 0;  ///< targets of it
 };
 
 /// Three digits, enough for a message.

@@ -47,6 +47,7 @@ constexpr int kVisualGroup = 2;
 constexpr int kColliderGroup = 3;         // hidden by viewers unless asked for
 constexpr double kGrid = 0.1;             // spacing of the lines that viewers draw on planes [m]
 constexpr std::size_t kFewestPoints = 4;  // of a mesh
+constexpr double kSame = 1e-9;            // [m], and of a turn
 
 /// Files for MuJoCo's compiler that need not be on the disk.
 class Files {
@@ -272,11 +273,13 @@ class VisualWriter {
              "\" has too few points or is a plane that moves; it is skipped");
       return;
     }
+    const Pose pose = frame * visual.pose;
+    if (!is_mesh && show_collider(body, visual, pose)) {
+      return;
+    }
     mjsGeom* geom = mjs_addGeom(body, nullptr);
     set_shape(geometry, *geom);
-    const Pose pose = frame * visual.pose;
-    write_vector(geom->pos, pose.position);
-    write_quaternion(geom->quat, normalized(pose.orientation));
+    set_place(pose, *geom);
     geom->contype = 0;
     geom->conaffinity = 0;
     geom->group = kVisualGroup;
@@ -285,33 +288,49 @@ class VisualWriter {
       mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
     }
     geoms_[visual.name] = geom;
-    if (!is_mesh) {
-      show_collider(body, visual, geom);
-    }
+  }
+
+  static void set_place(const Pose& pose, mjsGeom& geom) {
+    write_vector(geom.pos, pose.position);
+    write_quaternion(geom.quat, normalized(pose.orientation));
   }
 
   /// A collider of the same shape in the same place becomes the visual itself, as in models.
-  void show_collider(mjsBody* body, const robot::Visual& visual, mjsGeom* seen) {
-    for (mjsElement* at = mjs_firstChild(body, mjOBJ_GEOM, 0); at != nullptr;
-         at = mjs_nextChild(body, at, 0)) {
-      mjsGeom* geom = mjs_asGeom(at);
-      if (geom->group != kColliderGroup || !is_same_shape(*geom, *seen)) {
+  bool show_collider(mjsBody* body, const robot::Visual& visual, const Pose& pose) {
+    mjsGeom seen{};
+    set_shape(visual.geometry, seen);
+    set_place(pose, seen);
+    const std::multimap<double, mjsGeom*>& colliders = colliders_of(body);
+    const auto end = colliders.upper_bound(seen.pos[0] + kSame);
+    for (auto at = colliders.lower_bound(seen.pos[0] - kSame); at != end; ++at) {
+      mjsGeom* geom = at->second;
+      if (geom->group != kColliderGroup || !is_same_shape(*geom, seen)) {
         continue;
       }
       geom->group = 0;
-      std::copy_n(seen->size, geom->type == mjGEOM_PLANE ? 3 : 0, geom->size);
+      std::copy_n(seen.size, geom->type == mjGEOM_PLANE ? 3 : 0, geom->size);
       if (visual.material) {
         mjs_setString(geom->material, visuals_.materials[*visual.material].name.c_str());
       }
-      names_.emplace(mjs_getString(mjs_getName(at)), visual.name);
+      names_.emplace(mjs_getString(mjs_getName(geom->element)), visual.name);
       geoms_[visual.name] = geom;
-      mjs_delete(&spec_, seen->element);
-      return;
+      return true;
     }
+    return false;
+  }
+
+  /// By the first number of their places.
+  const std::multimap<double, mjsGeom*>& colliders_of(mjsBody* body) {
+    const auto [known, is_new] = colliders_.try_emplace(body);
+    for (mjsElement* at = is_new ? mjs_firstChild(body, mjOBJ_GEOM, 0) : nullptr; at != nullptr;
+         at = mjs_nextChild(body, at, 0)) {
+      mjsGeom* geom = mjs_asGeom(at);
+      known->second.emplace(geom->pos[0], geom);
+    }
+    return known->second;
   }
 
   static bool is_same_shape(const mjsGeom& a, const mjsGeom& b) {
-    constexpr double kSame = 1e-9;  // [m], and of a turn
     const auto near = [](const double* x, const double* y, int count) {
       return std::equal(x, x + count, y,
                         [](double p, double q) { return std::fabs(p - q) <= kSame; });
@@ -331,6 +350,7 @@ class VisualWriter {
   Diagnostics& diagnostics_;
   std::map<std::string, std::string, std::less<>> names_;
   std::map<std::string, mjsGeom*> geoms_;
+  std::map<mjsBody*, std::multimap<double, mjsGeom*>> colliders_;
   std::vector<robot::Index> made_;  // meshes, by the number in their names
 };
 

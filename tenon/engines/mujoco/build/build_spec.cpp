@@ -91,8 +91,16 @@ Result<Model> build_once(Build& build, Begin begin) {
   report_unmapped(build);
   TENON_TRY(Model model, compile(build));
   connect_geoms(model, std::move(filter), std::move(surfaces));
+  const bool is_text = build.purpose == Purpose::Text;
+  const int flags = model.model->opt.disableflags;
+  if (is_text) {  // nothing is stepped, so what touches does not matter, however much it is
+    model.model->opt.disableflags |= mjDSBL_CONTACT;
+  }
   TENON_CHECK(set_initial_state(scene, begin, model, build.diagnostics));
-  report_overlaps(scene, model, build.diagnostics);
+  model.model->opt.disableflags = flags;
+  if (!is_text) {
+    report_overlaps(scene, model, build.diagnostics);
+  }
   return model;
 }
 

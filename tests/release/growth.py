@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Instructions of a command when what a file has many of is doubled: at most 2.4 times as many.
+
+    growth.py PROGRAM
+
+PROGRAM is built with the preset `release`. Each kind is a file that a size makes, and a command;
+the sizes are large enough for what grows with the square to be seen. Exit 77: no valgrind.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+MOST = 2.4
+HEAD = '#usda 1.0\n(\n    defaultPrim = "W"\n    upAxis = "Z"\n    metersPerUnit = 1\n)\n'
+BODY = '"PhysicsRigidBodyAPI", "PhysicsCollisionAPI"'
+
+
+def missing_targets(count):
+    """One relationship whose targets do not exist."""
+    targets = ", ".join(f"</W/a{i}>" for i in range(count))
+    return HEAD + 'def Xform "W"\n{\n    rel r = [' + targets + "]\n}\n"
+
+
+def ops_above_bodies(count):
+    """As many transform operations on a prim as bodies below it."""
+    ops = [f"xformOp:translate:a{i}" for i in range(count)]
+    names = ", ".join(f'"{op}"' for op in ops)
+    lines = [f"    double3 {op} = (1, 0, 0)" for op in ops]
+    lines.append(f"    uniform token[] xformOpOrder = [{names}]")
+    for i in range(count):
+        lines.append(f'    def Sphere "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n'
+                     f"        double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+                     '        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }')
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(lines) + "\n}\n"
+
+
+def bodies_at_one_place(count):
+    spheres = [f'    def Sphere "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n    }}'
+               for i in range(count)]
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(spheres) + "\n}\n"
+
+
+# Name, what makes the file, size, words of the command behind the file.
+KINDS = (
+    ("missing targets", missing_targets, 2000, ("check",), ()),
+    ("operations above bodies", ops_above_bodies, 300, ("check",), ()),
+    ("bodies at one place, as MJCF", bodies_at_one_place, 200, ("convert",), ("out.xml",)),
+)
+COLLECTED = re.compile(r"Collected : (\d+)")
+
+
+def instructions(program, folder, words):
+    for old in pathlib.Path(folder).glob("out.*"):
+        old.unlink()
+    tool = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+    if shutil.which("setarch"):
+        tool = ["setarch", "-R", *tool]
+    done = subprocess.run([*tool, program, *words], cwd=folder, capture_output=True, text=True,
+                          check=False)
+    found = COLLECTED.search(done.stderr)
+    if done.returncode not in (0, 1) or not found:
+        sys.exit(f"{' '.join(words)}: exit {done.returncode}\n{done.stderr[-1500:]}")
+    return int(found[1])
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    if not shutil.which("valgrind") or not os.path.exists(program):
+        print("skipped: no valgrind, or no " + program)
+        return 77
+    faults = 0
+    for name, make, size, before, behind in KINDS:
+        with tempfile.TemporaryDirectory() as folder:
+            counts = []
+            for count in (0, size, 2 * size):
+                pathlib.Path(folder, "scene.usda").write_text(make(count))
+                counts.append(instructions(program, folder, [*before, "scene.usda", *behind]))
+        none, once, twice = counts
+        ratio = (twice - none) / (once - none)
+        faults += ratio > MOST
+        print(f"{name}: {size:,} {(once - none) / 1e6:.1f} M, twice as many {ratio:.2f} times"
+              + ("  TOO MUCH" if ratio > MOST else ""))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
