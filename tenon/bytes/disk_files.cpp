@@ -49,7 +49,7 @@ class DiskFiles : public FileSource {
   Result<std::vector<FolderEntry>> list(const std::string& folder) const override {
     std::error_code error;
     std::vector<FolderEntry> entries;
-    fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+    fs::directory_iterator at(folder, error);
     for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
       entries.push_back({at->path().filename().string(), kind_of_name(*at)});
     }
@@ -57,7 +57,9 @@ class DiskFiles : public FileSource {
       const bool none = error == std::errc::no_such_file_or_directory;
       return Error(none ? ErrorCode::NotFound : ErrorCode::Io,
                    "the folder cannot be read: " + error.message())
-          .in_file(folder);
+          .in_file(folder)
+          .with_rule(none ? "file.not-found" : "file.unreadable")
+          .with_fix(none ? "" : "make it readable, or name the folders beside it");
     }
     std::sort(entries.begin(), entries.end(),
               [](const FolderEntry& a, const FolderEntry& b) { return a.name < b.name; });

@@ -46,8 +46,8 @@ class FileSource {
   /// what is no file or cannot be read; Limit "file.too-large" by the rules; what their check says.
   virtual Result<std::shared_ptr<const FileBytes>> open(const std::string& path,
                                                         const FileRules& rules) const = 0;
-  /// The names in a folder, sorted. NotFound where there is none, Io where it cannot be read; one
-  /// that may not be looked into has none.
+  /// The names in a folder, sorted. Errors: NotFound "file.not-found" where there is none, Io
+  /// "file.unreadable" where it cannot be read.
   virtual Result<std::vector<FolderEntry>> list(const std::string& folder) const = 0;
   /// Whether another process that opens `path` finds these very bytes.
   virtual bool is_on_disk(const std::string& path) const = 0;

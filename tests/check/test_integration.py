@@ -43,6 +43,32 @@ class Folder(unittest.TestCase):
                               capture_output=True, text=True, check=False)
 
 
+def leave_root():
+    if os.getuid() == 0:
+        os.setgroups([])
+        os.setgid(65534)
+        os.setuid(65534)
+
+
+class Folders(Folder):
+    def test_a_folder_that_cannot_be_entered_is_told(self):
+        """A gate that passes over what it cannot read is green for no reason."""
+        self.put("good.usda", '#usda 1.0\ndef Xform "A" {}\n')
+        self.put("inside/bad.usda", ODD)
+        for part in (self.folder, self.folder / "good.usda"):
+            part.chmod(0o755)
+        (self.folder / "inside").chmod(0)
+        self.addCleanup((self.folder / "inside").chmod, 0o755)
+        try:
+            done = subprocess.run([TENON, "check", self.folder], capture_output=True, text=True,
+                                  check=False, cwd="/", preexec_fn=leave_root)
+        except PermissionError:
+            self.skipTest("nobody may not run this build")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn("inside", done.stderr)
+        self.assertIn("cannot be read", done.stderr)
+
+
 class Sarif(Folder):
     def log_of(self, *arguments):
         done = self.run_words(TENON, "check", *arguments, "--sarif", "-")
