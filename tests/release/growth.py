@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of a command when what a file has many of is doubled: at most 2.4 times as many.
+"""Instructions of a command when what a file has many of is doubled: at most 2.4 times as many, or
+what a library takes itself.
 
     growth.py PROGRAM
 
@@ -17,7 +18,6 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 2.4
 HEAD = '#usda 1.0\n(\n    defaultPrim = "W"\n    upAxis = "Z"\n    metersPerUnit = 1\n)\n'
 BODY = '"PhysicsRigidBodyAPI", "PhysicsCollisionAPI"'
 
@@ -47,11 +47,12 @@ def bodies_at_one_place(count):
     return HEAD + 'def Xform "W"\n{\n' + "\n".join(spheres) + "\n}\n"
 
 
-# Name, what makes the file, size, words of the command behind the file.
+# Name, what makes the file, size, words before the file and behind it, the bound. MuJoCo's lists of
+# a model take the square of its bodies, a small part of it; contacts of all pairs took 4 times.
 KINDS = (
-    ("missing targets", missing_targets, 2000, ("check",), ()),
-    ("operations above bodies", ops_above_bodies, 300, ("check",), ()),
-    ("bodies at one place, as MJCF", bodies_at_one_place, 200, ("convert",), ("out.xml",)),
+    ("missing targets", missing_targets, 2000, ("check",), (), 2.4),
+    ("operations above bodies", ops_above_bodies, 300, ("check",), (), 2.4),
+    ("bodies at one place, as MJCF", bodies_at_one_place, 500, ("convert",), ("out.xml",), 3.2),
 )
 COLLECTED = re.compile(r"Collected : (\d+)")
 
@@ -76,7 +77,7 @@ def main():
         print("skipped: no valgrind, or no " + program)
         return 77
     faults = 0
-    for name, make, size, before, behind in KINDS:
+    for name, make, size, before, behind, most in KINDS:
         with tempfile.TemporaryDirectory() as folder:
             counts = []
             for count in (0, size, 2 * size):
@@ -84,9 +85,9 @@ def main():
                 counts.append(instructions(program, folder, [*before, "scene.usda", *behind]))
         none, once, twice = counts
         ratio = (twice - none) / (once - none)
-        faults += ratio > MOST
+        faults += ratio > most
         print(f"{name}: {size:,} {(once - none) / 1e6:.1f} M, twice as many {ratio:.2f} times"
-              + ("  TOO MUCH" if ratio > MOST else ""))
+              + ("  TOO MUCH" if ratio > most else ""))
     return 1 if faults else 0
 
 

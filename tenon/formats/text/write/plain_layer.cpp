@@ -34,7 +34,7 @@ namespace fields = layer::fields;
 
 constexpr int kDepth = 32;  // of dictionaries
 /// Of prims, with their metadata inside; binary layers may have more than text may.
-constexpr std::size_t kLevels = limits::kTextNestingDepth - 2 * kDepth;
+constexpr std::size_t kLevels = limits::kTextNestingDepth - std::size_t{2} * kDepth;
 
 template <class T>
 bool are_unique(const std::vector<T>& items) {
