@@ -172,11 +172,13 @@ def main():
         return 0 if all(robot.outcomes for robot in robots) else 1
     if options.write:
         options.page.write_text(page, encoding="utf-8")
-        options.misses.write_text("".join(line + "\n" for line in silent), encoding="utf-8")
     same = options.page.exists() and options.page.read_text(encoding="utf-8") == page
-    known = options.misses.read_text(encoding="utf-8").splitlines()
+    lines = options.misses.read_text(encoding="utf-8").splitlines()
+    known = sorted(line for line in lines if line and not line.startswith("#"))
+    for run_name in sorted(set(silent) ^ set(known)):
+        print(run_name, "is silent" if run_name in silent else "is no longer silent: take it out")
     print(f"{len(robots)} robots on {len(engines)} engines" + ("" if same else ": --write"))
-    return 0 if same and silent == sorted(known) else 1
+    return 0 if same and silent == known else 1
 
 
 if __name__ == "__main__":
