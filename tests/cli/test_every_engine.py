@@ -210,6 +210,11 @@ class Joints(unittest.TestCase):
         answer = self.simulate(scene, "mujoco", "--integrator", "implicitfast")
         told = self.told(answer)
         self.assertNotIn("mujoco.coupled-drive", told)  # the user's choice wins
+        asset = scene.replace('PhysicsScene "Scene" {', 'PhysicsScene "Scene" '
+                              '(prepend apiSchemas = ["MjcSceneAPI"])\n    {\n        '
+                              'uniform token mjc:option:integrator = "implicitfast"\n    ')
+        self.assertNotEqual(asset, scene)
+        self.assertNotIn("mujoco.coupled-drive", self.told(self.simulate(asset, "mujoco")))
         if not answer["unstable"]:
             self.assertEqual(told["sim.joint-shakes"], "/Robot/knuckle")
 

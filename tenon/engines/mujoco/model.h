@@ -135,8 +135,9 @@ struct ModelMaps {
   Surfaces surfaces;
   bool curved_shapes = false;  ///< see build/touching.h
   std::vector<NotMapped> not_mapped;
-  std::vector<int> auxiliary_bodies;        ///< MuJoCo bodies whose weights compile() has set
-  std::vector<std::size_t> coupled_drives;  ///< into `drives`: those with a tendon
+  std::vector<int> auxiliary_bodies;  ///< MuJoCo bodies whose weights compile() has set
+  /// (tendon_count) into `drives`, of the tendons that are drives; -1: of others. Empty: none is.
+  std::vector<int> drive_of_tendon;
 };
 
 struct Model : ModelMaps {

@@ -115,14 +115,17 @@ double own_inertia(const scene::Body& body, const Pose& frame, scene::Dof dof) {
 bool may_be_stiff(const Build& build, const scene::Joint& joint, const scene::Drive& drive) {
   constexpr double kSure = 0.05;
   const double implicit = (drive.damping + drive.stiffness * build.time_step) * build.time_step;
-  double least = drive.acceleration ? 1 : scene::kUnlimited;
+  if (drive.acceleration) {
+    return implicit > kSure;
+  }
+  double least = scene::kUnlimited;
   for (const auto& [body, frame] :
        {std::pair(joint.body0, joint.frame0), std::pair(joint.body1, joint.frame1)}) {
-    if (body && !drive.acceleration) {
+    if (body) {
       least = std::min(least, own_inertia(build.scene.bodies[*body], frame, drive.dof));
     }
   }
-  return implicit > kSure * (least + (drive.acceleration ? 0 : joint.armature));
+  return implicit > kSure * (least + joint.armature);
 }
 
 mjsTendon* add_drive_tendon(Build& build, const mjsActuator& actuator) {

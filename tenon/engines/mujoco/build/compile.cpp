@@ -25,6 +25,8 @@ namespace {
 // Above these a step must be implicit:
 constexpr double kStiffSpring = 0.5;  // stiffness dt^2 / inertia
 constexpr double kStiffDrive = 1;     // and damping dt / inertia with it
+constexpr const char* kOwnIntegrator =
+    "mjc:option:integrator of MjcSceneAPI on the physics scene wins over this choice";
 constexpr double kFarInAStep = 0.02;  // [rad or m] with the largest force
 
 Error rejected(mjSpec* spec) {
@@ -303,42 +305,43 @@ bool is_free_to_choose(const Build& build) {
          build.drive_terms == DriveTerms::Engine;
 }
 
-/// Drives that are stiff are solved with constraints, where the method can.
-void couple_drives(const Build& build, Model& result) {
-  mjModel& m = *result.model;
-  const bool possible = is_free_to_choose(build) && m.opt.solver != mjSOL_PGS;
-  for (std::size_t i = 0; i < result.drives.size(); ++i) {
-    DriveMap& map = result.drives[i];
-    if (map.tendon < 0) {
-      continue;
-    }
-    if (possible && is_stiff(build, result, map)) {
-      couple_drive(map, m);
-      result.coupled_drives.push_back(i);
-    } else {
-      map.tendon = -1;
-    }
-  }
-  if (result.coupled_drives.empty()) {
+void report_coupled(const Build& build, const Model& result, const std::vector<int>& coupled) {
+  if (coupled.empty()) {
     return;
   }
-  Diagnostic told;
-  told.severity = Severity::Info;
-  told.rule = "mujoco.coupled-drive";
-  told.prim = build.scene.joints[result.drives[result.coupled_drives.front()].joint].path.str();
+  const auto joint_of = [&](int drive) {
+    return build.scene.joints[result.drives[static_cast<std::size_t>(drive)].joint].path;
+  };
   char text[160];
   std::snprintf(text, sizeof text,
                 "the drive is stiff for steps of %.4g s; MuJoCo takes it where the step ends, "
                 "together with the constraints",
                 build.time_step);
   Message message = text;
-  for (std::size_t i = 1; i < result.coupled_drives.size(); ++i) {
-    message.about(build.scene.joints[result.drives[result.coupled_drives[i]].joint].path,
-                  RelatedRole::Joint);
+  for (std::size_t i = 1; i < coupled.size(); ++i) {
+    message.about(joint_of(coupled[i]), RelatedRole::Joint);
   }
-  told.say(message);
-  told.fix = "--integrator implicitfast leaves them to MuJoCo's own actuators";
-  build.diagnostics.add(std::move(told));
+  build.diagnostics.add({Severity::Info, "mujoco.coupled-drive", message,
+                         joint_of(coupled.front()).str(), "", kOwnIntegrator});
+}
+
+/// Drives that are stiff are solved with constraints, where the method can.
+void couple_drives(const Build& build, Model& result) {
+  mjModel& m = *result.model;
+  const bool possible = is_free_to_choose(build) && m.opt.solver != mjSOL_PGS;
+  std::vector<int> coupled;
+  for (std::size_t i = 0; i < result.drives.size(); ++i) {
+    DriveMap& map = result.drives[i];
+    if (map.tendon >= 0 && possible && is_stiff(build, result, map)) {
+      couple_drive(map, m);
+      coupled.push_back(static_cast<int>(i));
+      result.drive_of_tendon.resize(static_cast<std::size_t>(m.ntendon), -1);
+      result.drive_of_tendon[static_cast<std::size_t>(map.tendon)] = coupled.back();
+    } else {
+      map.tendon = -1;
+    }
+  }
+  report_coupled(build, result, coupled);
 }
 
 // Implicit in velocity is enough for damping; drives that are stiff against their inertia need the
@@ -360,8 +363,7 @@ void choose_integrator(const Build& build, Model& result) {
                   "is used, which takes positions implicitly, too",
                   build.time_step);
     build.diagnostics.add({Severity::Info, "mujoco.integrator", text,
-                           build.scene.joints[*stiff].path.str(), "",
-                           "--integrator euler, implicitfast or implicit wins"});
+                           build.scene.joints[*stiff].path.str(), "", kOwnIntegrator});
   }
 }
 

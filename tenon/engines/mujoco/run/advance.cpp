@@ -133,7 +133,7 @@ bool steps_by_euler_instead(const Model& model) {
 void advance(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (!finishes_contacts(model) && !model.coupled_drives.empty()) {
+  if (!finishes_contacts(model) && !model.drive_of_tendon.empty()) {
     mj_step1(m, d);
     end_step(model);
   } else if (!finishes_contacts(model) ||

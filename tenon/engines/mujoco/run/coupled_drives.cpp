@@ -10,14 +10,19 @@ namespace {
 constexpr int kSwitchedOff = 30;     // group of actuators that exert nothing by themselves
 constexpr double kUnbounded = 1e10;  // the largest number that MuJoCo takes
 
-/// The constraint of a tendon's friction; -1: there is none, where its tree sleeps.
-int row_of(const mjData& d, int tendon) {
-  for (int i = d.ne; i < d.ne + d.nf; ++i) {
-    if (d.efc_type[i] == mjCNSTR_FRICTION_TENDON && d.efc_id[i] == tendon) {
-      return i;
+/// Calls `act` with each drive that has a constraint and the number of that: trees that sleep have
+/// none.
+template <class Act>
+void for_each_row(const Model& model, const Act& act) {
+  const mjData& d = *model.data;
+  for (int i = d.ne; i < d.ne + d.nf && !model.drive_of_tendon.empty(); ++i) {
+    const int drive = d.efc_type[i] == mjCNSTR_FRICTION_TENDON
+                          ? model.drive_of_tendon[static_cast<std::size_t>(d.efc_id[i])]
+                          : -1;
+    if (drive >= 0) {
+      act(model.drives[static_cast<std::size_t>(drive)], i);
     }
   }
-  return -1;
 }
 
 struct Row {
@@ -53,15 +58,9 @@ void couple_drive(const DriveMap& drive, mjModel& model) {
 }
 
 void write_coupled_drives(const Model& model) {
-  const mjModel& m = *model.model;
   mjData& d = *model.data;
-  for (const std::size_t i : model.coupled_drives) {
-    const DriveMap& map = model.drives[i];
-    const int at = row_of(d, map.tendon);
-    if (at < 0) {
-      continue;
-    }
-    const Row row = row_for(map, m, d);
+  for_each_row(model, [&](const DriveMap& map, int at) {
+    const Row row = row_for(map, *model.model, d);
     d.efc_D[at] = row.mass;
     d.efc_R[at] = 1 / row.mass;
     d.efc_frictionloss[at] = row.most;
@@ -72,27 +71,25 @@ void write_coupled_drives(const Model& model) {
       d.iefc_R[copy] = 1 / row.mass;
       d.iefc_frictionloss[copy] = row.most;
     }
-  }
+  });
 }
 
 // What reads forces later finds a drive among the actuators, not among the constraints.
 void read_coupled_drives(const Model& model) {
   mjData& d = *model.data;
-  for (const std::size_t i : model.coupled_drives) {
-    const DriveMap& map = model.drives[i];
-    const int at = row_of(d, map.tendon);
-    const double force = at < 0 ? 0 : d.efc_force[at];
+  for_each_row(model, [&](const DriveMap& map, int at) {
+    const double force = d.efc_force[at];
     d.actuator_force[map.actuator] = force;
     d.qfrc_actuator[map.dof] += force;
     d.qfrc_smooth[map.dof] += force;
     d.qfrc_constraint[map.dof] -= force;
-  }
+  });
 }
 
 void forward(const Model& model) {
   mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  if (model.coupled_drives.empty()) {
+  if (model.drive_of_tendon.empty()) {
     mj_forward(m, d);
     return;
   }
