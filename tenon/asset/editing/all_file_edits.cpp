@@ -136,10 +136,6 @@ EditedPlace place_of(const AllFiles& files, const AssetEdit& edit, const std::st
   return place;
 }
 
-}  // namespace
-
-namespace {
-
 /// In the files that define the prim.
 Result<std::vector<EditedPlace>> edit_own(const AllFiles& files, const PrimSites& sites,
                                           const AssetEdit& edit) {

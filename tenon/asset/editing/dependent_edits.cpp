@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "tenon/asset/editing/edit_refusals.h"
 #include "tenon/asset/editing/path_texts.h"
 #include "tenon/asset/editing/spec_edits.h"
 #include "tenon/base/text/shown_path.h"
@@ -58,11 +59,7 @@ Result<void> check_no_arcs(const stage::Dependents& dependents) {
     return {};
   }
   const stage::Dependents::Arc& arc = dependents.arcs.front();
-  return Error(ErrorCode::Invalid, named(arc.from) + " is made of <" + arc.to.str() + "> by an arc")
-      .in_file(arc.layers.front())
-      .with_prim(arc.to.str())
-      .with_rule("edit.in-use")
-      .with_fix("remove that prim first, or let its arc lead elsewhere");
+  return used_by_arc(arc.from, arc.to).in_file(arc.layers.front());
 }
 
 Error not_editable(const std::string& layer, Path spec, const AssetEdit& edit) {

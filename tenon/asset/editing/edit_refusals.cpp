@@ -50,6 +50,13 @@ Error already_there(const stage::Prim& prim) {
       .with_fix("choose another path, or remove it first: tenon remove ASSET " + prim.path().str());
 }
 
+Error used_by_arc(Path from, Path prim) {
+  return Error(ErrorCode::Invalid, named(from) + " is made of <" + prim.str() + "> by an arc")
+      .with_prim(prim.str())
+      .with_rule("edit.in-use")
+      .with_fix("remove that prim first, or let its arc lead elsewhere");
+}
+
 Error with_file_fix(Error error) {
   const std::string& rule = error.diagnostic().rule;
   if (rule == "edit.no-spec") {

@@ -24,6 +24,9 @@ Result<void> check_object(const AssetEdit& edit);
 /// Invalid (edit.prim-exists).
 Error already_there(const stage::Prim& prim);
 
+/// Invalid (edit.in-use): an arc of `from` leads to `prim`.
+Error used_by_arc(Path from, Path prim);
+
 /// With the fix that helps where files are edited.
 Error with_file_fix(Error error);
 

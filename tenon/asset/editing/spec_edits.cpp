@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/asset/editing/edit_refusals.h"
 #include "tenon/edit/default_prim.h"
 #include "tenon/layer/arcs.h"
 #include "tenon/layer/fields.h"
@@ -20,21 +21,11 @@ namespace {
 
 namespace fields = layer::fields;
 
-std::vector<Path> prim_specs(const layer::Layer& layer, Path prim) {
+/// Those of the prim for which `is_wanted` holds, such as Path::is_prim.
+std::vector<Path> specs_of(const layer::Layer& layer, Path prim, bool (Path::*is_wanted)() const) {
   std::vector<Path> found;
   for (const layer::Layer::Entry& entry : layer.entries()) {
-    if (entry.path.is_prim() && entry.path.strip_variants() == prim) {
-      found.push_back(entry.path);
-    }
-  }
-  return found;
-}
-
-/// Those of the prim and of its variants, which may have arcs.
-std::vector<Path> arc_specs(const layer::Layer& layer, Path prim) {
-  std::vector<Path> found;
-  for (const layer::Layer::Entry& entry : layer.entries()) {
-    if (entry.path.is_prim_or_variant() && entry.path.strip_variants() == prim) {
+    if ((entry.path.*is_wanted)() && entry.path.strip_variants() == prim) {
       found.push_back(entry.path);
     }
   }
@@ -78,13 +69,7 @@ Result<void> check_no_arc_leads_to(const layer::Layer& layer, Path prim) {
         leads_to<layer::Payload>(*spec, fields::payload, prim) ||
         leads_to<Path>(*spec, fields::inheritPaths, prim) ||
         leads_to<Path>(*spec, fields::specializes, prim)) {
-      return Error(ErrorCode::Invalid,
-                   named(entry.path) + " is made of <" + prim.str() + "> by an arc")
-          .in_file(layer.identifier())
-          .at(spec->line, 1)
-          .with_prim(prim.str())
-          .with_rule("edit.in-use")
-          .with_fix("remove that prim first, or let its arc lead elsewhere");
+      return used_by_arc(entry.path, prim).in_file(layer.identifier()).at(spec->line, 1);
     }
   }
   return {};
@@ -234,7 +219,7 @@ std::set<Path> mentioned_prims(const layer::Layer& layer, const std::set<Path>& 
 
 Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim) {
   TENON_CHECK(check_no_arc_leads_to(editor.layer(), prim));
-  std::vector<Path> changed = prim_specs(editor.layer(), prim);
+  std::vector<Path> changed = specs_of(editor.layer(), prim, &Path::is_prim);
   for (const Path spec : changed) {
     TENON_CHECK(editor.remove_prim(spec));
   }
@@ -289,7 +274,7 @@ std::vector<Path> rename_in_asset_arcs(edit::LayerEditor& editor, const stage::D
                                        Token name) {
   const Path now = arc.to.replace_prefix(arc.prim, arc.prim.parent().child(name));
   std::vector<Path> changed;
-  for (const Path spec : arc_specs(editor.layer(), arc.from)) {
+  for (const Path spec : specs_of(editor.layer(), arc.from, &Path::is_prim_or_variant)) {
     const bool references =
         rename_in_list<layer::Reference>(editor, spec, fields::references, arc, now);
     const bool payloads = rename_in_list<layer::Payload>(editor, spec, fields::payload, arc, now);
@@ -323,7 +308,7 @@ Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path 
 Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,
                                                const std::string& set, const std::string& variant) {
   std::vector<Path> changed;
-  for (const Path spec : prim_specs(editor.layer(), prim)) {
+  for (const Path spec : specs_of(editor.layer(), prim, &Path::is_prim)) {
     const Path place = spec.variant_selection(Token(set), Token(variant));
     if (!editor.layer().has(place)) {
       continue;
