@@ -114,9 +114,9 @@ void Reporter::at(const stage::Prim& prim, Token property, const Message& messag
 void Reporter::at_target(const stage::Prim& prim, Token property, Path target,
                          const Message& message, std::string fix) {
   constexpr std::size_t kMostPlaced = 32;
-  std::string place = prim.path().str() + "." + property.str();
+  const Path place = prim.path().property(property);
   placed_ = place == placed_on_ ? placed_ + 1 : 1;
-  placed_on_ = std::move(place);
+  placed_on_ = place;
   if (placed_ > kMostPlaced) {
     at(prim, property, message, std::move(fix));
     return;

@@ -64,7 +64,7 @@ class Reporter {
 
   const Rule* rule_;
   std::vector<Diagnostic>* out_;
-  std::string placed_on_;   ///< the property of the last target
+  Path placed_on_;          ///< the property of the last target
   std::size_t placed_ = 0;  ///< targets of it
 };
 

@@ -52,7 +52,7 @@ def leave_root():
 
 class Folders(Folder):
     def test_a_folder_that_cannot_be_entered_is_told(self):
-        """A gate that passes over what it cannot read is green for no reason."""
+        """A gate that skips what it cannot read is green for no reason."""
         self.put("good.usda", '#usda 1.0\ndef Xform "A" {}\n')
         self.put("inside/bad.usda", ODD)
         for part in (self.folder, self.folder / "good.usda"):
