@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/engines/drive_values.h"
 #include "tenon/math/angle.h"
 #include "tenon/scene/joint_dofs.h"
 #include "tenon/watches/weight_loads.h"
@@ -31,31 +32,26 @@ constexpr std::size_t kStillWindows = 4;    // and a quarter of the run
 constexpr double kSags = 1;                 // degrees or mm
 constexpr double kWeightIsTheReason = 0.5;  // of what the drive exerts
 
-/// One degree, or one millimetre.
-double unit(bool angular) { return angular ? kRadians : 1e-3; }
-
 bool is_spring(const scene::Joint& joint, scene::Dof dof) {
   return std::any_of(joint.limit_springs.begin(), joint.limit_springs.end(),
                      [&](const auto& spring) { return spring.dof == dof && spring.stiffness > 0; });
 }
 
-/// A drive with a spring whose numbers do not change, where the joint has no other.
-std::optional<Index> holding_drive(const scene::PhysicsScene& scene, Index joint) {
-  const std::vector<scene::Drive>& drives = scene.joints[joint].drives;
-  const bool animated =
-      std::any_of(scene.scalar_tracks.begin(), scene.scalar_tracks.end(),
-                  [&](const scene::ScalarTrack& track) { return track.joint == joint; });
-  const bool holds = drives.size() == 1 && drives.front().stiffness > 0 &&
-                     drives.front().target_velocity == 0 && !animated;
-  return holds ? std::optional<Index>(0) : std::nullopt;
+/// Its only drive has a spring and aims at a position.
+bool has_holding_drive(const scene::Joint& joint) {
+  return joint.drives.size() == 1 && joint.drives.front().stiffness > 0 &&
+         joint.drives.front().target_velocity == 0;
 }
 
 }  // namespace
+
+double joint_unit(bool angular) { return angular ? kRadians : 1e-3; }
 
 JointWatch::JointWatch(const engines::Simulation& simulation, const scene::PhysicsScene& scene,
                        bool steered)
     : simulation_(simulation), scene_(scene) {
   const std::vector<scene::FreeRotations> rotations = wanted_rotations(scene);
+  const std::vector<Index> animated = engines::joints_with_tracks(scene);
   for (Index j = 0; j < scene.joints.size(); ++j) {
     const scene::Joint& joint = scene.joints[j];
     const scene::JointDofs dofs = joint_dofs(joint, rotations[j]);
@@ -69,9 +65,10 @@ JointWatch::JointWatch(const engines::Simulation& simulation, const scene::Physi
     const bool soft = is_spring(joint, free.dof) || !scene.bounds_tracks.empty();
     watched.lower = soft ? -kInfinity : free.lower;
     watched.upper = soft ? kInfinity : free.upper;
-    watched.drive = steered ? std::nullopt : holding_drive(scene, j);
-    if (watched.drive) {
-      watched.target = std::clamp(joint.drives[*watched.drive].target_position, watched.lower,
+    watched.holds = !steered && has_holding_drive(joint) &&
+                    !std::binary_search(animated.begin(), animated.end(), j);
+    if (watched.holds) {
+      watched.target = std::clamp(joint.drives.front().target_position, watched.lower,
                                   std::max(watched.lower, watched.upper));
     }
     joints_.push_back(watched);
@@ -97,20 +94,21 @@ void JointWatch::look(Watched& watched, std::size_t step_of_window) const {
   if (step_of_window < kWindow - 1) {
     return;
   }
-  const bool shakes = watched.changes >= kChanges &&
-                      watched.sum > kShakes * unit(watched.angular) * static_cast<double>(kWindow);
+  const bool shakes =
+      watched.changes >= kChanges &&
+      watched.sum > kShakes * joint_unit(watched.angular) * static_cast<double>(kWindow);
   if (shakes) {
     ++watched.shaken;
     watched.fastest = std::max(watched.fastest, watched.top);
   }
   const double position = state.position.front();
   const double still =
-      std::max(kStill * unit(watched.angular), kOfWay * std::fabs(position - watched.target));
+      std::max(kStill * joint_unit(watched.angular), kOfWay * std::fabs(position - watched.target));
   const bool moved = std::fabs(position - watched.place) > still;
   watched.still = moved ? 0 : watched.still + 1;
   watched.place = moved ? position : watched.place;
-  if (watched.drive) {
-    const scene::Drive& drive = scene_.joints[watched.joint].drives[*watched.drive];
+  if (watched.holds) {
+    const scene::Drive& drive = scene_.joints[watched.joint].drives.front();
     const double wanted = drive.stiffness * std::fabs(position - watched.target);
     watched.saturated += wanted > drive.max_force ? 1 : 0;
   }
@@ -140,7 +138,7 @@ std::vector<JointFault> JointWatch::faults() const {
                                                       position.front() - watched.upper);
     const double range = watched.upper - watched.lower;
     const double allowed =
-        kBeyond * unit(watched.angular) + (std::isfinite(range) ? kOfRange * range : 0);
+        kBeyond * joint_unit(watched.angular) + (std::isfinite(range) ? kOfRange * range : 0);
     if (std::isfinite(beyond) && range >= 0 && beyond > allowed) {
       found.push_back({watched.joint, JointFault::Kind::BeyondLimit, watched.angular, beyond});
     }
@@ -156,13 +154,13 @@ void JointWatch::find_sagging(std::vector<JointFault>& found) const {
   for (const Watched& watched : joints_) {
     const bool rests = watched.still >= kStillWindows && 4 * watched.still >= windows_;
     const bool too_weak = watched.saturated >= kStillWindows && 2 * watched.saturated >= windows_;
-    if (!watched.drive || !(rests || too_weak)) {
+    if (!watched.holds || !(rests || too_weak)) {
       continue;
     }
-    const scene::Drive& drive = scene_.joints[watched.joint].drives[*watched.drive];
+    const scene::Drive& drive = scene_.joints[watched.joint].drives.front();
     const std::vector<double> position = simulation_.joint_state(watched.joint).position;
     const double away = position.empty() ? 0 : watched.target - position.front();
-    if (!(std::fabs(away) > kSags * unit(watched.angular))) {
+    if (!(std::fabs(away) > kSags * joint_unit(watched.angular))) {
       continue;
     }
     if (loads.empty()) {
@@ -171,8 +169,8 @@ void JointWatch::find_sagging(std::vector<JointFault>& found) const {
     const double load = away > 0 ? -loads[watched.joint] : loads[watched.joint];
     const double exerted = std::min(drive.stiffness * std::fabs(away), drive.max_force);
     if (load > 0 && (drive.acceleration || load > kWeightIsTheReason * exerted)) {
-      found.push_back({watched.joint, JointFault::Kind::Sags, watched.angular, std::fabs(away),
-                       load, *watched.drive});
+      found.push_back(
+          {watched.joint, JointFault::Kind::Sags, watched.angular, std::fabs(away), load});
     }
   }
 }

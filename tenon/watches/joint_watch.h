@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "tenon/engines/simulation.h"
@@ -22,10 +21,12 @@ struct JointFault {
   scene::Index joint = 0;
   Kind kind = Kind::Shakes;
   bool angular = true;
-  double amount = 0;       ///< of Shakes the largest speed [rad/s or m/s], else how far [rad or m]
-  double load = 0;         ///< of Sags: what weight exerts along the joint [N m or N], not negative
-  scene::Index drive = 0;  ///< of Sags: into Joint::drives
+  double amount = 0;  ///< of Shakes the largest speed [rad/s or m/s], else how far [rad or m]
+  double load = 0;    ///< of Sags: what weight exerts along the joint [N m or N], not negative
 };
+
+/// One degree or one millimetre [rad or m]: what coordinates are told in.
+double joint_unit(bool angular);
 
 /// Looks at joints after each step of a run, at eight steps of 64.
 class JointWatch {
@@ -44,8 +45,8 @@ class JointWatch {
     bool angular = true;
     double lower = 0;  ///< [m or rad]; infinite where nothing or a spring bounds it
     double upper = 0;
-    std::optional<scene::Index> drive;  ///< to a fixed position
-    double last = 0;                    ///< velocity at the step before
+    bool holds = false;  ///< by its only drive, to a fixed position
+    double last = 0;     ///< velocity at the step before
     // In this window:
     int changes = 0;  ///< of its sign
     double sum = 0;   ///< of speeds
@@ -53,7 +54,7 @@ class JointWatch {
     // So far:
     std::size_t shaken = 0;     ///< windows in which it shook
     double fastest = 0;         ///< in those
-    double target = 0;          ///< of `drive`, within the limits
+    double target = 0;          ///< of that drive, within the limits
     double place = 0;           ///< position from which it has not moved much
     std::size_t still = 0;      ///< windows since it is there
     std::size_t saturated = 0;  ///< windows at whose end the spring asked for more than maxForce

@@ -112,28 +112,26 @@ class RunReport {
   }
 
   void sags(const JointFault& worst, const std::string& size) {
-    const scene::Drive& drive = scene_.joints[worst.joint].drives[worst.drive];
+    const scene::Drive& drive = scene_.joints[worst.joint].drives.front();
     const char* unit = worst.angular ? " N m" : " N";
     const bool limited = !drive.acceleration && worst.load > drive.max_force;
     std::string message = "the drive ends " + size +
-                          " from its target, for the weight on the joint takes " +
-                          digits(worst.load) + unit;
+                          " from its target: the weight on the joint takes " + digits(worst.load) +
+                          unit;
     std::string fix;
     if (limited) {
-      message += ", and its maxForce is " + digits(drive.max_force) + unit;
+      message += ", but its maxForce is " + digits(drive.max_force) + unit;
       fix = "author a maxForce that is at least " + digits(1.1 * worst.load / drive.max_force) +
             " times as large, or less mass";
     } else {
-      message += ", for which its stiffness is low";
-      fix = "a stiffness " + digits(worst.amount / one(worst)) +
+      message += ", too much for its stiffness";
+      fix = "a stiffness " + digits(worst.amount / joint_unit(worst.angular)) +
             " times as large keeps it within " + (worst.angular ? "a degree" : "a millimetre");
     }
     // A drive may be a spring that is meant to give way.
     add("sim.drive-sags", worst, std::move(message), fix.c_str(),
         limited ? Severity::Warning : Severity::Info);
   }
-
-  static double one(const JointFault& fault) { return fault.angular ? kRadians : 1e-3; }
 
   /// About the worst of its kind; the others are related.
   void add(const char* rule, const JointFault& worst, Message message, const char* fix,

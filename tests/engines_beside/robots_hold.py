@@ -77,6 +77,10 @@ def distances(answer):
     }
 
 
+def joints(found):
+    return "1 joint" if len(found) == 1 else f"{len(found)} joints"
+
+
 def outcome(tenon, engine, asset, slides):
     """`slides`: the joints whose coordinates are metres."""
     words = [tenon, "sim", asset, "--engine", engine, "--json", "--duration"]
@@ -91,10 +95,10 @@ def outcome(tenon, engine, asset, slides):
     if silent:
         worst = max(silent, key=silent.get)
         name = worst.rsplit("/", 1)[1]
-        return Outcome("silent", f"{len(silent)} joints, {name} {silent[worst]:.3g}")
+        return Outcome("silent", f"{joints(silent)}, {name} {silent[worst]:.3g}")
     if moved:
         rules = sorted({named[path] for path in moved})
-        return Outcome("told", f"{len(moved)} joints, " + ", ".join(rules))
+        return Outcome("told", f"{joints(moved)}, " + ", ".join(rules))
     return Outcome("holds")
 
 

@@ -281,7 +281,7 @@ void EnergyBound::look_at_drives(const Simulation& simulation, const PhysicsScen
       given_ += span * std::min(drive.damping * driven.inertia * speed * speed / 4, most * speed);
       const DriveSpring spring{driven.target, stiffness, most};
       const double stored = stiffness > 0 ? spring.energy_at(position) : 0;
-      if (span == 0 && stiffness > 0) {  // the start
+      if (span == 0 && stiffness > 0 && !drive.acceleration) {  // the start
         given_ += spring.given_by_limit(position, driven.lower, driven.upper);
       }
       if (drive.acceleration) {  // at most so much, so it counts only when it is let go
