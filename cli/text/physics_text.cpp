@@ -167,9 +167,9 @@ std::string physics_text(const PhysicsScene& scene) {
       out += sensor_line(scene, sensor);
     }
   }
-  out +=
-      plural(scene.disabled_pairs().size(), "disabled collider pair", "disabled collider pairs") +
-      "\n";
+  const scene::ColliderPairs apart = scene.disabled_pairs();
+  out += (apart.is_cut ? "more than " : "") +
+         plural(apart.pairs.size(), "disabled collider pair", "disabled collider pairs") + "\n";
   if (!scene.not_read.empty()) {
     out += "not taken over\n";
     for (const scene::NotRead& row : scene.not_read) {

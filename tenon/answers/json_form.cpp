@@ -32,6 +32,7 @@ constexpr DerivedKey kTriangleMeshKeys[] = {
 constexpr DerivedKey kPhysicsSceneKeys[] = {
     {"schemaVersion", "string", "of this form"},
     {"disabledPairs", "array", "colliders that may not touch, groups expanded"},
+    {"disabledPairsCut", "boolean", "there are more of them than a million, which are not listed"},
     {"animated", "array", "what follows samples, in short"},
 };
 

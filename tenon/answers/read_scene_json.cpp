@@ -20,6 +20,7 @@
 #include "tenon/scene/check_scene.h"
 #include "tenon/scene/fields/data_type.h"
 #include "tenon/scene/fields/list_of.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::answers {
 namespace {
@@ -50,6 +51,9 @@ class Reader {
     object(json, ref_to(scene), "");
     if (fault_) {
       return *std::move(fault_);
+    }
+    if (pairs_of_colliders_) {
+      make_each_a_set(scene);
     }
     TENON_CHECK(check_scene(scene));
     for (const Index follower : single_mimics_) {
@@ -102,6 +106,9 @@ class Reader {
     }
     if (scene::Joint* joint = value.get_if<scene::Joint>()) {
       older(json, *joint, at);
+    }
+    if (value.get_if<scene::CollisionFilter>() != nullptr) {
+      pairs_of_colliders_ = json.contains("pairsOff") && !json.contains("setsOff");
     }
   }
 
@@ -333,6 +340,7 @@ class Reader {
 
   std::map<std::pair<List, std::string>, Index> indices_;
   Index joints_read_ = 0;
+  bool pairs_of_colliders_ = false;   ///< up to version 2.4 filters name them one by one
   std::vector<Index> single_mimics_;  ///< joints of version 1.0 that follow another one
   std::optional<Error> fault_;
 };

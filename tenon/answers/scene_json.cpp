@@ -292,11 +292,13 @@ class Writer {
   }
   void add_derived(const PhysicsScene& scene, Json& row) {
     row["schemaVersion"] = std::string(kSceneSchemaVersion);
+    const scene::ColliderPairs apart = scene.disabled_pairs();
     row["disabledPairs"] = Json::array();
-    for (const auto& [a, b] : scene.disabled_pairs()) {
+    for (const auto& [a, b] : apart.pairs) {
       row["disabledPairs"].push_back(
           {scene.colliders[a].path.str(), scene.colliders[b].path.str()});
     }
+    row["disabledPairsCut"] = apart.is_cut;
     row["animated"] = animated();
   }
 

@@ -15,7 +15,7 @@
 namespace tenon::answers {
 
 /// Of this form of JSON; the second number counts up when fields are added.
-inline constexpr std::string_view kSceneSchemaVersion = "2.4";
+inline constexpr std::string_view kSceneSchemaVersion = "3.0";
 
 /// What JSON holds of meshes: their points and triangles, or a hash of them with counts and bounds.
 enum class Geometry : std::uint8_t { Hash, Inline };

@@ -10,6 +10,7 @@
 
 #include "tenon/answers/json.h"
 #include "tenon/scene/fields/same_fields.h"
+#include "tenon/scene/filter_sets.h"
 #include "tenon/scene/test_filled_scene.h"
 
 namespace tenon::answers {
@@ -162,11 +163,37 @@ std::size_t rename_keys(Json& json, const std::map<std::string, std::string>& ke
 TEST(SceneJson, EveryFormerKeyIsRead) {
   std::map<std::string, std::string> keys;
   add_former_keys<PhysicsScene>(keys);
-  EXPECT_EQ(keys.size(), 4u);
+  EXPECT_EQ(keys.size(), 7u);
   const PhysicsScene scene = scene::filled_scene();
   Json json = Json::parse(scene_json(scene, Geometry::Inline));
   json["schemaVersion"] = "1.1";
   EXPECT_GE(rename_keys(json, keys), keys.size());
+  const auto back = read_scene_json(json.dump());
+  ASSERT_TRUE(back.has_value()) << back.error().to_string();
+  EXPECT_TRUE(same_fields(scene, *back));
+}
+
+// Up to version 2.4 filters named pairs of colliders.
+TEST(SceneJson, PairsOfSingleCollidersAreRead) {
+  PhysicsScene scene = scene_of_followers();
+  for (const char* const path : {"/lead", "/follow"}) {
+    scene::Collider collider;
+    collider.path = Path::from(path);
+    collider.body = static_cast<scene::Index>(scene.colliders.size());
+    scene.colliders.push_back(collider);
+    scene.bodies.push_back({});
+    scene.bodies.back().path = Path::from(std::string(path) + "/body");
+  }
+  keep_pairs_apart(scene, {{0, 1}});
+  Json json = Json::parse(scene_json(scene, Geometry::Inline));
+  Json& filter = json["filter"];
+  for (const auto& [key, former] :
+       {std::pair("setsOff", "pairsOff"), std::pair("permanentSetsOff", "permanentPairs")}) {
+    filter[former] = filter[key];
+    filter.erase(key);
+  }
+  filter.erase("setsOfCollider");
+  json["schemaVersion"] = "2.4";
   const auto back = read_scene_json(json.dump());
   ASSERT_TRUE(back.has_value()) << back.error().to_string();
   EXPECT_TRUE(same_fields(scene, *back));

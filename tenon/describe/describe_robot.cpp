@@ -48,7 +48,7 @@ Result<robot::RobotModel> describe_robot(const stage::Stage& stage,
   BodyTree bodies = read_bodies(source);
   Looks looks = add_visuals(source, bodies.tree);
   add_colliders(source, bodies, looks.meshes);
-  if (!scene.filter.permanent_pairs.empty()) {
+  if (!scene.filter.permanent_sets_off.empty()) {
     source.left_out({}, "pairs of colliders are kept apart");
   }
   for (const scene::Sensor& sensor : scene.sensors) {

@@ -56,7 +56,7 @@ struct MassProvenance {
 enum class PairRule : std::uint8_t { FilteredPair, Joint, Articulation };
 
 struct PairProvenance {
-  Index a = 0;  ///< colliders, a < b
+  Index a = 0;  ///< sets of the collision filter, a <= b
   Index b = 0;
   PairRule rule = PairRule::FilteredPair;
   Path prim;         ///< that says so

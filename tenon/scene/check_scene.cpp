@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "tenon/base/limits/physics_limits.h"
 #include "tenon/scene/fields/list_of.h"
 
 namespace tenon::scene {
@@ -22,10 +23,12 @@ bool is_finite(const Mat3d& m) {
   });
 }
 
-bool all_below(const std::vector<std::pair<Index, Index>>& pairs, std::size_t count) {
-  return std::all_of(pairs.begin(), pairs.end(), [count](const auto& pair) {
-    return pair.first < count && pair.second < count;
-  });
+/// Pairs of numbers below `count`, as SetPairs says.
+bool are_set_pairs(const SetPairs& pairs, std::size_t count) {
+  return std::is_sorted(pairs.begin(), pairs.end()) &&
+         std::all_of(pairs.begin(), pairs.end(), [count](const auto& pair) {
+           return pair.first <= pair.second && pair.second < count;
+         });
 }
 
 /// What contradicts itself in one struct by itself; nullptr: nothing.
@@ -259,12 +262,20 @@ class Check {
     require(
         filter.group_pair_off.size() == groups * groups && filter.ungrouped_off.size() == groups,
         "a table of groups has another size");
-    const std::size_t count = scene_.colliders.size();
-    const char* const fault = "a pair of colliders is out of range";
-    require(all_below(filter.pairs_off, count), fault);
-    require(all_below(filter.permanent_pairs, count), fault);
+    require(filter.sets_of_collider.size() <= scene_.colliders.size(),
+            "there are more lists of sets than colliders");
+    // A set has a collider or more of its own; that bounds how many there can be.
+    const std::size_t count = limits::kSetsOfCollider * scene_.colliders.size();
+    for (const std::vector<Index>& of : filter.sets_of_collider) {
+      require(std::all_of(of.begin(), of.end(), [count](Index i) { return i < count; }) &&
+                  of.size() <= limits::kSetsOfCollider && std::is_sorted(of.begin(), of.end()),
+              "the sets of a collider are out of range");
+    }
+    const char* const fault = "a pair of sets is out of range or not in order";
+    require(are_set_pairs(filter.sets_off, count), fault);
+    require(are_set_pairs(filter.permanent_sets_off, count), fault);
     for (const JointPairs& pairs : filter.joint_pairs) {
-      require(all_below(pairs.pairs, count), fault);
+      require(are_set_pairs(pairs.sets, count), fault);
     }
   }
 

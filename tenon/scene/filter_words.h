@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "tenon/scene/fields/scene_side.h"
 
@@ -13,9 +12,10 @@
 /// be compared. Internal to tenon/scene.
 namespace tenon::scene {
 
-/// "/A and /B" for each pair, by path.
-std::set<std::string> pair_words(const Side& side,
-                                 const std::vector<std::pair<Index, Index>>& pairs);
+/// "/A and /B" for each pair of colliders that filters keep apart; none where there are too many.
+std::optional<std::set<std::string>> disabled_pair_words(const Side& side);
+/// The same of pairs of sets; where there are too many, a word for each pair of sets.
+std::set<std::string> set_pair_words(const Side& side, const SetPairs& off);
 /// "/C in /Group", "/Group apart from /Other".
 std::set<std::string> group_words(const Side& side);
 /// "/A and /B by /Joint".

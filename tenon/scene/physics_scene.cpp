@@ -5,14 +5,18 @@
 // between two of them numbers are blended unless the track is held, and switches and shapes hold. A
 // bound that is infinite at one of the two is not blended.
 // Filters only remove pairs. Two colliders may touch unless they are off, both static, of one body
-// or of different scenes, or unless their groups (S-77) or the sorted list of pairs say no. Pairs
-// of joints that may break or be switched are kept by joint, so that the list can be rebuilt.
+// or of different scenes, or unless their groups (S-77) or the pairs of sets say no. Pairs of
+// joints that may break or be switched are kept by joint, so that the list can be rebuilt.
 #include "tenon/scene/physics_scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
+#include "tenon/base/limits/physics_limits.h"
 #include "tenon/scene/fields/enum_names.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::scene {
 namespace {
@@ -184,16 +188,16 @@ void PhysicsScene::update_joint_pairs() {
   if (filter.joint_pairs.empty()) {
     return;
   }
-  filter.pairs_off = filter.permanent_pairs;
+  SetPairs& off = filter.sets_off;
+  off = filter.permanent_sets_off;
   for (const JointPairs& own : filter.joint_pairs) {
     const Joint& joint = joints[own.joint];
     if (joint.enabled && !joint.collision_enabled) {
-      filter.pairs_off.insert(filter.pairs_off.end(), own.pairs.begin(), own.pairs.end());
+      off.insert(off.end(), own.sets.begin(), own.sets.end());
     }
   }
-  std::sort(filter.pairs_off.begin(), filter.pairs_off.end());
-  filter.pairs_off.erase(std::unique(filter.pairs_off.begin(), filter.pairs_off.end()),
-                         filter.pairs_off.end());
+  std::sort(off.begin(), off.end());
+  off.erase(std::unique(off.begin(), off.end()), off.end());
 }
 
 bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {
@@ -205,33 +209,95 @@ bool PhysicsScene::may_collide(Index collider_a, Index collider_b) const {
 }
 
 bool PhysicsScene::may_meet(Index collider_a, Index collider_b) const {
-  const Index low = std::min(collider_a, collider_b);
-  const Index high = std::max(collider_a, collider_b);
-  return could_touch(colliders[low], colliders[high]) && groups_allow(filter, low, high) &&
-         !std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(),
-                             std::pair(low, high));
+  return could_touch(colliders[collider_a], colliders[collider_b]) &&
+         groups_allow(filter, collider_a, collider_b) &&
+         !are_apart(sets_of(filter, collider_a), sets_of(filter, collider_b), filter.sets_off);
 }
 
-std::vector<std::pair<Index, Index>> PhysicsScene::disabled_pairs() const {
-  std::vector<std::pair<Index, Index>> result;
-  for (const auto& [a, b] : filter.pairs_off) {
-    if (could_touch(colliders[a], colliders[b])) {
-      result.emplace_back(a, b);
+namespace {
+
+/// Walks over the pairs of colliders whose groups keep them apart. Colliders of the same groups are
+/// looked at together.
+class GroupWalk {
+ public:
+  explicit GroupWalk(const PhysicsScene& scene) : filter_(scene.filter) {
+    if (filter_.group_paths.empty()) {
+      return;
+    }
+    std::map<std::vector<Index>, Index> classes;
+    for (Index i = 0; i < scene.colliders.size(); ++i) {
+      const auto [entry, is_new] =
+          classes.try_emplace(filter_.groups_of_collider[i], static_cast<Index>(members_.size()));
+      if (is_new) {
+        members_.emplace_back();
+      }
+      members_[entry->second].push_back(i);
+      class_of_.push_back(entry->second);
+    }
+    partners_.resize(members_.size());
+  }
+
+  /// Adds the colliders above `collider` that are kept apart from it.
+  void add_above(Index collider, std::vector<Index>& list) {
+    if (members_.empty()) {
+      return;
+    }
+    for (const Index partner : partners_of(class_of_[collider])) {
+      const std::vector<Index>& members = members_[partner];
+      const auto above = std::upper_bound(members.begin(), members.end(), collider);
+      work_ += 1 + static_cast<std::size_t>(members.end() - above);
+      list.insert(list.end(), above, members.end());
     }
   }
-  if (filter.group_paths.empty()) {
-    return result;
-  }
-  const auto count = static_cast<Index>(colliders.size());
-  for (Index a = 0; a < count; ++a) {
-    for (Index b = a + 1; b < count; ++b) {
-      if (could_touch(colliders[a], colliders[b]) && !groups_allow(filter, a, b)) {
-        result.emplace_back(a, b);
+  std::size_t work() const { return work_; }
+
+ private:
+  const std::vector<Index>& partners_of(Index own) {
+    std::optional<std::vector<Index>>& partners = partners_[own];
+    if (!partners) {
+      partners.emplace();
+      for (Index other = 0; other < members_.size(); ++other) {
+        const Index a = members_[own].front();
+        const Index b = members_[other].front();
+        work_ += filter_.groups_of_collider[a].size() + 1;
+        if (!groups_allow(filter_, a, b)) {
+          partners->push_back(other);
+        }
       }
     }
+    return *partners;
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+
+  const CollisionFilter& filter_;
+  std::vector<std::vector<Index>> members_;                  // of each class
+  std::vector<Index> class_of_;                              // of each collider
+  std::vector<std::optional<std::vector<Index>>> partners_;  // classes; unset: not looked at yet
+  std::size_t work_ = 0;
+};
+
+}  // namespace
+
+ColliderPairs PhysicsScene::disabled_pairs() const {
+  ColliderPairs result;
+  SetWalk sets(filter);
+  GroupWalk groups(*this);
+  for (Index a = 0; a < colliders.size(); ++a) {
+    std::vector<Index> others = sets.above(a);
+    groups.add_above(a, others);
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    for (const Index b : others) {
+      if (could_touch(colliders[a], colliders[b])) {
+        result.pairs.emplace_back(a, b);
+      }
+    }
+    if (result.pairs.size() > limits::kDisabledPairs ||
+        sets.work() + groups.work() > limits::kDisabledPairWork) {
+      result.is_cut = true;
+      result.pairs.resize(std::min(result.pairs.size(), limits::kDisabledPairs));
+      break;
+    }
+  }
   return result;
 }
 

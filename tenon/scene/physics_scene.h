@@ -293,10 +293,14 @@ struct Articulation {
   ArticulationParts parts{};
 };
 
-/// Pairs of colliders that one joint keeps apart while it is enabled (S-91, S-92).
+/// Pairs of sets of colliders, first <= second, sorted, unique: no collider of one touches any of
+/// the other. A set may be paired with itself.
+using SetPairs = std::vector<std::pair<Index, Index>>;
+
+/// What one joint keeps apart while it is enabled (S-91, S-92).
 struct JointPairs {
   Index joint = 0;
-  std::vector<std::pair<Index, Index>> pairs;
+  SetPairs sets;
 };
 
 /// Which colliders may touch. Only ever removes pairs.
@@ -309,10 +313,14 @@ struct CollisionFilter {
   std::vector<char> group_pair_off;
   /// (group_count): 1 where the group does not touch ungrouped colliders (S-78).
   std::vector<char> ungrouped_off;
-  /// Explicit collider pairs, first < second, sorted, unique: filtered pairs, joints (S-81, S-92).
-  std::vector<std::pair<Index, Index>> pairs_off;
+  /// Sets of colliders that filtered pairs, joints and articulations mean: those of a body, of an
+  /// articulation, below a prim. For each collider the sets that it is in, ascending; may end
+  /// early. (at most collider_count)
+  std::vector<std::vector<Index>> sets_of_collider;
+  /// What filtered pairs, joints and articulations keep apart now (S-81, S-92, S-115).
+  SetPairs sets_off;
   /// Those of them that hold whatever becomes of the joints below.
-  std::vector<std::pair<Index, Index>> permanent_pairs;
+  SetPairs permanent_sets_off;
   /// What single joints keep apart: of those that may break or be switched.
   std::vector<JointPairs> joint_pairs;
 };
@@ -501,6 +509,14 @@ struct SceneContents {
   double end_time_code = 0;  ///< authored end, or the start when none is authored
 };
 
+/// Pairs of colliders, first < second, sorted, unique.
+struct ColliderPairs {
+  std::vector<std::pair<Index, Index>> pairs;
+  bool is_cut = false;  ///< there are more
+
+  bool operator==(const ColliderPairs&) const = default;
+};
+
 struct PhysicsScene : SceneContents {
   // Compiled once: each goes through all lists.
   PhysicsScene();
@@ -510,15 +526,16 @@ struct PhysicsScene : SceneContents {
   PhysicsScene& operator=(PhysicsScene&&) noexcept;
   ~PhysicsScene();
 
-  /// Brings filter.pairs_off up to date with what the joints are now (enabled, collision_enabled).
+  /// Brings filter.sets_off up to date with what the joints are now (enabled, collision_enabled).
   void update_joint_pairs();
   /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
   /// filtered, no triggers.
   bool may_collide(Index collider_a, Index collider_b) const;
   /// The same, also of triggers and of bodies whose contacts exert nothing.
   bool may_meet(Index collider_a, Index collider_b) const;
-  /// All filtered collider pairs (groups expanded), sorted; for reports.
-  std::vector<std::pair<Index, Index>> disabled_pairs() const;
+  /// The pairs of colliders that filters keep apart, of sets and of groups; for reports. They are
+  /// cut at limits::kDisabledPairs, or where finding them takes too long.
+  ColliderPairs disabled_pairs() const;
 };
 
 }  // namespace tenon::scene

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tenon/base/limits/physics_limits.h"
+#include "tenon/scene/filter_sets.h"
+
 namespace tenon::scene {
 namespace {
 
@@ -54,7 +57,7 @@ TEST(PhysicsScene, SameBodyStaticDisabledAndOtherScenesNeverTouch) {
 
 TEST(PhysicsScene, FiltersOnlyRemovePairs) {
   PhysicsScene scene = four_colliders();
-  scene.filter.pairs_off = {{0, 1}};
+  keep_pairs_apart(scene, {{0, 1}});
   EXPECT_FALSE(scene.may_collide(1, 0));
   scene.filter.group_paths = {Path::from("/G"), Path::from("/H")};
   scene.filter.group_pair_off = {0, 1, 1, 0};
@@ -66,7 +69,37 @@ TEST(PhysicsScene, FiltersOnlyRemovePairs) {
   EXPECT_TRUE(scene.may_collide(0, 3));
   EXPECT_FALSE(scene.may_collide(1, 3));  // S-78
   const std::vector<std::pair<Index, Index>> expected{{0, 1}, {0, 2}, {1, 2}, {1, 3}};
-  EXPECT_EQ(scene.disabled_pairs(), expected);
+  EXPECT_EQ(scene.disabled_pairs(), (ColliderPairs{expected, false}));
+}
+
+TEST(PhysicsScene, SetsAreApartWithAllThatIsInThem) {
+  PhysicsScene scene = four_colliders();
+  scene.bodies.push_back({});
+  scene.colliders[2].body = 2;
+  // 0: of body 0; 1: all but the last; 2: the last alone.
+  scene.filter.sets_of_collider = {{0, 1}, {1}, {1}, {2}};
+  scene.filter.sets_off = {{0, 1}, {0, 2}};
+  const std::vector<std::pair<Index, Index>> expected{{0, 1}, {0, 2}, {0, 3}};
+  EXPECT_EQ(scene.disabled_pairs(), (ColliderPairs{expected, false}));
+  EXPECT_TRUE(scene.may_collide(1, 2));
+  scene.filter.sets_off = {{1, 1}};
+  EXPECT_FALSE(scene.may_collide(1, 2));
+  EXPECT_TRUE(scene.may_collide(0, 3));
+}
+
+TEST(PhysicsScene, PairsAreCutWhereThereAreMoreThanAreListed) {
+  PhysicsScene scene;
+  scene.scenes.resize(1);
+  scene.bodies.resize(2000);
+  scene.colliders.resize(2000);
+  for (Index i = 0; i < 2000; ++i) {
+    scene.colliders[i].body = i;
+    scene.filter.sets_of_collider.push_back({0});
+  }
+  scene.filter.sets_off = {{0, 0}};
+  const ColliderPairs pairs = scene.disabled_pairs();
+  EXPECT_TRUE(pairs.is_cut);
+  EXPECT_EQ(pairs.pairs.size(), limits::kDisabledPairs);
 }
 
 TEST(Joint, DofFollowsKindAndAxis) {

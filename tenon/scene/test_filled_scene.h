@@ -49,6 +49,15 @@ inline PhysicsScene filled_scene() {
   wire::FillFields{}(scene);
   // Tables of two groups by two.
   scene.filter.group_pair_off = {0, 1, 1, 0};
+  // Colliders of two bodies, each a set of its own.
+  for (Index i = 0; i < 2; ++i) {
+    scene.colliders[i].body = i;
+  }
+  scene.filter.sets_of_collider = {{0}, {1}};
+  scene.filter.sets_off = scene.filter.permanent_sets_off = {{0, 1}};
+  for (JointPairs& pairs : scene.filter.joint_pairs) {
+    pairs.sets = {{0, 1}};
+  }
   for (GroupState& state : scene.group_states) {
     state.group_pair_off = {1, 0, 0, 1};
   }

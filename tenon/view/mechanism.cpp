@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Bodies, joints, articulations and filtered pairs of a scene in the form that the page draws. Of
+// very many colliders the pairs are not shown, and a note says so.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -91,7 +94,10 @@ ViewJoint joint_of(const scene::Joint& joint) {
 /// Pairs of bodies all of whose pairs of colliders are apart.
 void add_filtered_pairs(const scene::PhysicsScene& scene, const ViewLimits& limits,
                         ViewScene& view) {
-  if (scene.colliders.size() > kMostColliders) {
+  const scene::ColliderPairs disabled = scene.colliders.size() > kMostColliders
+                                            ? scene::ColliderPairs{{}, true}
+                                            : scene.disabled_pairs();
+  if (disabled.is_cut) {
     view.notes.push_back({{}, "pairs that do not touch are not shown of so many colliders"});
     return;
   }
@@ -103,7 +109,7 @@ void add_filtered_pairs(const scene::PhysicsScene& scene, const ViewLimits& limi
     ++colliders[body_of_collider(i)];
   }
   std::map<std::pair<Index, Index>, std::size_t> apart;
-  for (const auto& [a, b] : scene.disabled_pairs()) {
+  for (const auto& [a, b] : disabled.pairs) {
     const Index first = body_of_collider(a);
     const Index second = body_of_collider(b);
     if (first != second) {

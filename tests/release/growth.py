@@ -47,11 +47,68 @@ def bodies_at_one_place(count):
     return HEAD + 'def Xform "W"\n{\n' + "\n".join(spheres) + "\n}\n"
 
 
+def pairs_with_the_root(count):
+    """Bodies that each name the prim above all of them."""
+    schemas = BODY + ', "PhysicsFilteredPairsAPI"'
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(
+        f'    def Sphere "b{i}" (prepend apiSchemas = [{schemas}])\n    {{\n'
+        f"        rel physics:filteredPairs = </W>\n"
+        f"        double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+        '        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }'
+        for i in range(count)) + "\n}\n"
+
+
+def group(index, inside):
+    return (f'    def PhysicsCollisionGroup "g{index}"'
+            ' (prepend apiSchemas = ["CollectionAPI:colliders"])\n'
+            f"    {{\n        {inside}\n    }}")
+
+
+def merged_groups(count):
+    """Groups of seven merge names, each with all bodies."""
+    groups = [group(i, "rel collection:colliders:includes = </W/all>\n"
+                    f'        string physics:mergeGroup = "m{i % 7}"\n'
+                    f"        rel physics:filteredGroups = </W/g{(i + 1) % count}>")
+              for i in range(count)]
+    return (HEAD + 'def Xform "W"\n{\n    def Xform "all"\n    {\n'
+            f'        def Cube "b" (prepend apiSchemas = [{BODY}])\n        {{\n        }}\n'
+            "    }\n" + "\n".join(groups) + "\n}\n")
+
+
+def expressions_of_groups(count):
+    """Bodies, and half as many groups with an expression that names one pattern many times."""
+    expression = " + ".join(["//*b1"] * 20 + ["//b2*"])
+    bodies = [f'    def Cube "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n    }}'
+              for i in range(count)]
+    groups = [group(i, "pathExpression collection:colliders:membershipExpression = "
+                    f'"{expression}"') for i in range(count // 2)]
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(bodies + groups) + "\n}\n"
+
+
+def mimics_of_mimics(count):
+    """Joints on one body, each of which follows the next one."""
+    rows = []
+    for i in range(count):
+        follows = f"        rel newton:mimicJoint = </W/j{i + 1}>\n" if i + 1 < count else ""
+        rows.append(f'    def Cube "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n    }}\n'
+                    f'    def PhysicsRevoluteJoint "j{i}"'
+                    ' (prepend apiSchemas = ["NewtonMimicAPI"])\n'
+                    "    {\n        rel physics:body0 = </W/a>\n"
+                    f"        rel physics:body1 = </W/b{i}>\n{follows}    }}")
+    return (HEAD + f'def Xform "W"\n{{\n    def Cube "a" (prepend apiSchemas = [{BODY}])\n'
+            "    {\n    }\n" + "\n".join(rows) + "\n}\n")
+
+
 # Name, what makes the file, size, words before the file and behind it, the bound. MuJoCo's lists of
 # a model take the square of its bodies, a small part of it; contacts of all pairs took 4 times.
 KINDS = (
     ("missing targets", missing_targets, 2000, ("check",), (), 2.4),
     ("operations above bodies", ops_above_bodies, 300, ("check",), (), 2.4),
+    ("pairs with the root", pairs_with_the_root, 1500, ("physics",), (), 2.4),
+    ("pairs with the root, checked", pairs_with_the_root, 1000, ("check",), (), 2.4),
+    ("groups that merge", merged_groups, 500, ("physics",), (), 4.2),
+    ("expressions of groups", expressions_of_groups, 300, ("info",), (), 4.2),
+    ("mimics of mimics, as MJCF", mimics_of_mimics, 200, ("convert",), ("out.xml",), 3.2),
     ("bodies at one place, as MJCF", bodies_at_one_place, 500, ("convert",), ("out.xml",), 3.2),
 )
 COLLECTED = re.compile(r"Collected : (\d+)")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/engines/jolt/test_run.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::jolt {
 namespace {
@@ -122,7 +123,7 @@ TEST(JoltContacts, PairsOfCollidersAreFilteredNotBodies) {
     scene.add_collider("body/high", body, sphere(0.1), {{{0, 0, 0.2}}});
     scene.add_collider("ground", std::nullopt, ground());
     if (filtered) {
-      scene.filter.pairs_off = {{0, 2}};
+      keep_pairs_apart(scene, {{0, 2}});
     }
     const auto simulation = make_run(scene);
     run_for(*simulation, 1.5);

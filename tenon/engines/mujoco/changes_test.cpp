@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -494,6 +495,7 @@ TEST(Breaking, WhatAJointKeptApartMayTouchWhenItIsBroken) {
   scene::Joint& joint = scene.add_joint("Hook", JointKind::Fixed, {}, body);
   joint.frame0.position = {{0, 0, 0.05}};
   joint.break_force = 50;
+  make_each_a_set(scene);
   scene.filter.joint_pairs.push_back({0, {{shape, floor}}});
   scene.update_joint_pairs();
   auto sim = simulation(scene, kDt);

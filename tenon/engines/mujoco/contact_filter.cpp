@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "tenon/scene/filter_sets.h"
+
 namespace tenon::engines::mujoco {
 namespace {
 
@@ -25,7 +27,10 @@ bool filtered(const ContactFilter& filter, int a, int b) {
   }
   const std::uint64_t pair = (std::uint64_t{static_cast<std::uint32_t>(std::min(a, b))} << 32u) |
                              static_cast<std::uint32_t>(std::max(a, b));
-  return std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(), pair);
+  return std::binary_search(filter.pairs_off.begin(), filter.pairs_off.end(), pair) ||
+         (!filter.sets_of_geom.empty() &&
+          scene::are_apart(filter.sets_of_geom[static_cast<std::size_t>(a)],
+                           filter.sets_of_geom[static_cast<std::size_t>(b)], filter.sets_off));
 }
 
 // 1 discards the pair.

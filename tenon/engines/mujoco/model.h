@@ -90,7 +90,9 @@ struct ContactFilter {
   std::vector<int> geom_class;  ///< (geom_count)
   std::vector<char> class_off;  ///< (class_count x class_count): 1 where contacts are off
   std::size_t class_count = 0;
-  std::vector<std::uint64_t> pairs_off;  ///< sorted, smaller geom in the upper half
+  std::vector<std::uint64_t> pairs_off;                 ///< sorted, smaller geom in the upper half
+  std::vector<std::vector<scene::Index>> sets_of_geom;  ///< (geom_count), or empty: no pair of sets
+  scene::SetPairs sets_off;
 };
 
 /// What contacts depend on of a material.

@@ -8,6 +8,7 @@
 #include "tenon/engines/mujoco/mujoco_engine.h"
 #include "tenon/engines/mujoco/test_scene.h"
 #include "tenon/scene/fields/wire_form.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -355,10 +356,7 @@ TEST(Environments, KeepFilteredPairsApartOnEveryThread) {
     scene.add_collider("c" + std::to_string(i), body, box({{0.1, 0.1, 0.1}}));
     scene.add_collider("d" + std::to_string(i), body, sphere(0.05), {{{0.3, 0, 0}}});
   }
-  for (const auto& pair : {std::pair<Index, Index>{1, 3}, {1, 4}, {2, 4}}) {
-    scene.filter.pairs_off.push_back(pair);  // not all of the bodies: needs the callback
-  }
-  scene.filter.permanent_pairs = scene.filter.pairs_off;
+  keep_pairs_apart(scene, {{1, 3}, {1, 4}, {2, 4}});  // not all of the bodies: needs the callback
   std::vector<std::string> states;
   for (const std::size_t threads : {1u, 4u}) {
     Diagnostics diagnostics;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -225,8 +226,7 @@ TEST(PassageWatch, WhatFliesAlongIsNotPassed) {
 
 TEST(PassageWatch, WhatDoesNotCollideMayBePassed) {
   TestScene scene = bullet(200);
-  scene.filter.pairs_off = {{0, 1}};
-  scene.filter.permanent_pairs = scene.filter.pairs_off;
+  keep_pairs_apart(scene, {{0, 1}});
   auto sim = simulation(scene);
   run(*sim, 0.1);
   EXPECT_TRUE(sim->events().empty());

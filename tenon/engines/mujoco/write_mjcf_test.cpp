@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -130,7 +131,7 @@ TestScene linked_arm(bool apart) {
   const auto a = scene.add_collider("A", upper, sphere(0.1));
   const auto b = scene.add_collider("B", lower, sphere(0.1));
   if (apart) {
-    scene.filter.pairs_off.emplace_back(a, b);
+    keep_pairs_apart(scene, {{a, b}});
   }
   return scene;
 }

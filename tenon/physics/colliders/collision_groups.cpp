@@ -1,7 +1,15 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Groups, and which colliders each has (S-76 to S-80). Whether two groups touch is a table of
+// groups by groups (filters.h), at the start and at each later sample. Membership is decided by
+// asking a group's collection for each collider; expressions of all groups together may compare so
+// many names (kMatchWork).
 #include <algorithm>
+#include <string>
 
+#include "tenon/base/limits/physics_limits.h"
+#include "tenon/base/limits/work_limits.h"
 #include "tenon/physics/colliders/filters.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/physics/sample_codes.h"
@@ -76,10 +84,15 @@ void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims
   }
 }
 
-/// Membership is asked of the colliders' own paths (S-76).
-void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
+/// Membership is asked of the colliders' own paths (S-76). Gives the work of matching (kMatchWork);
+/// `work` is that of the groups before.
+std::size_t find_members(ReadState& state, const PhysicsPrim& found, Index group,
+                         std::size_t work) {
   const stage::Collection members = stage::Collection::read(found.prim, Token("colliders"));
-  for (std::size_t i = 0; i < state.scene.colliders.size(); ++i) {
+  const auto is_exhausted = [&] {
+    return members.rules().empty() && work + members.match_work() > limits::kMatchWork;
+  };
+  for (std::size_t i = 0; i < state.scene.colliders.size() && !is_exhausted(); ++i) {
     // Instances of point instancers are members where their prototypes are, too.
     const PhysicsPrim& prim = state.prim_of_collider(static_cast<Index>(i));
     if (members.contains(prim.path) ||
@@ -87,11 +100,12 @@ void find_members(ReadState& state, const PhysicsPrim& found, Index group) {
       state.scene.filter.groups_of_collider[i].push_back(group);
     }
   }
-  if (members.is_cut()) {
+  if (members.is_cut() || is_exhausted()) {
     state.not_read(found.prim, "collection:colliders",
                    "the collection is too large or its expression too costly (docs/limits.md); "
                    "some of its colliders are not in the group");
   }
+  return members.match_work();
 }
 
 /// S-78
@@ -118,16 +132,24 @@ void report_ungrouped(const ReadState& state, const std::vector<std::uint32_t>& 
 void read_collision_groups(ReadState& state) {
   CollisionFilter& filter = state.scene.filter;
   filter.groups_of_collider.resize(state.scene.colliders.size());
-  const auto prims = sorted_prims(
+  auto prims = sorted_prims(
       state.walk, [](const PhysicsPrim& p) { return p.roles.kind == PrimKind::CollisionGroup; });
+  if (prims.size() > limits::kCollisionGroups) {
+    state.not_read(state.walk.prims[prims[limits::kCollisionGroups]].prim, "",
+                   "there are more than " + std::to_string(limits::kCollisionGroups) +
+                       " collision groups (kCollisionGroups); this one and those that follow it "
+                       "by path are skipped");
+    prims.resize(limits::kCollisionGroups);
+  }
   for (const std::uint32_t i : prims) {
     filter.group_paths.push_back(state.walk.prims[i].path);
   }
   std::vector<AuthoredGroup> groups;
+  std::size_t match_work = 0;
   for (const std::uint32_t i : prims) {
     const auto index = static_cast<Index>(groups.size());
     groups.push_back(read_group(state, state.walk.prims[i], filter.group_paths));
-    find_members(state, state.walk.prims[i], index);
+    match_work += find_members(state, state.walk.prims[i], index, match_work);
   }
   GroupTable table = table_of(state, state.walk, groups);
   filter.group_pair_off = std::move(table.pair_off);

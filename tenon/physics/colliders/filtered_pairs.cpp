@@ -1,11 +1,17 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
-// of an articulation without self collision (S-81, S-82, S-92, S-115).
+// Sets of colliders that never touch: named by the filtered pairs API, joined by a joint, or links
+// of an articulation without self collision (S-81, S-82, S-92, S-115). A set is read once, however
+// many rules name it, and never written out as pairs of colliders.
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
+#include "tenon/base/limits/physics_limits.h"
 #include "tenon/physics/joints/joint_frames.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/scene/joint_freedom.h"
@@ -15,9 +21,69 @@ namespace {
 
 using Colliders = std::vector<Index>;
 
+/// The sets of a filter, each once.
+class Sets {
+ public:
+  explicit Sets(PhysicsScene& scene) : scene_(scene) {}
+
+  /// The set of these colliders; none of no colliders, and where it is one too many for one of them
+  /// (kSetsOfCollider).
+  std::optional<Index> of(Colliders list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (list.empty()) {
+      return std::nullopt;
+    }
+    const auto known = numbers_.find(list);
+    if (known != numbers_.end()) {
+      return known->second;
+    }
+    std::vector<std::vector<Index>>& sets = scene_.filter.sets_of_collider;
+    sets.resize(std::max(sets.size(), list.back() + std::size_t{1}));
+    if (std::any_of(list.begin(), list.end(),
+                    [&](Index i) { return sets[i].size() >= limits::kSetsOfCollider; })) {
+      is_cut_ = true;
+      return std::nullopt;
+    }
+    const auto number = static_cast<Index>(bodies_.size());
+    for (const Index i : list) {
+      sets[i].push_back(number);
+    }
+    bodies_.push_back(body_of(list));
+    numbers_.emplace(std::move(list), number);
+    return number;
+  }
+
+  /// Colliders of different bodies are among two sets; those of one never touch anyway, as static
+  /// ones do not.
+  bool can_touch(Index a, Index b) const {
+    return !bodies_[a].is_one || !bodies_[b].is_one || bodies_[a].body != bodies_[b].body;
+  }
+  /// A set was skipped since the last call.
+  bool was_cut() { return std::exchange(is_cut_, false); }
+
+ private:
+  struct Bodies {
+    bool is_one = true;  // all are of it, or all are static
+    std::optional<Index> body;
+  };
+  Bodies body_of(const Colliders& list) const {
+    const std::optional<Index>& first = scene_.colliders[list.front()].body;
+    return {std::all_of(list.begin(), list.end(),
+                        [&](Index i) { return scene_.colliders[i].body == first; }),
+            first};
+  }
+
+  PhysicsScene& scene_;
+  std::map<Colliders, Index> numbers_;
+  std::vector<Bodies> bodies_;
+  bool is_cut_ = false;
+};
+
 class PairFilter {
  public:
-  explicit PairFilter(ReadState& state) : state_(state), pairs_(state.scene.filter.pairs_off) {}
+  explicit PairFilter(ReadState& state)
+      : state_(state), sets_(state.scene), pairs_(state.scene.filter.sets_off) {}
 
   void run() {
     for (std::uint32_t i = 0; i < state_.walk.prims.size(); ++i) {
@@ -45,7 +111,7 @@ class PairFilter {
     }
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-    state_.scene.filter.permanent_pairs = pairs_;
+    state_.scene.filter.permanent_sets_off = pairs_;
     state_.scene.update_joint_pairs();
   }
 
@@ -70,8 +136,7 @@ class PairFilter {
     state_.provenance = provenance;
     JointPairs own{i, {pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end()}};
     pairs_.resize(before);
-    std::sort(own.pairs.begin(), own.pairs.end());
-    if (!own.pairs.empty()) {
+    if (!own.sets.empty()) {
       state_.scene.filter.joint_pairs.push_back(std::move(own));
     }
   }
@@ -83,22 +148,21 @@ class PairFilter {
     property_ = property;
   }
 
-  /// Pairs of different bodies; two static colliders never touch anyway.
-  void add(Index a, Index b) {
-    const std::vector<Collider>& colliders = state_.scene.colliders;
-    if (a != b && colliders[a].body != colliders[b].body) {
-      pairs_.emplace_back(std::min(a, b), std::max(a, b));
-      if (state_.provenance != nullptr) {
-        state_.provenance->pairs.push_back(
-            {std::min(a, b), std::max(a, b), rule_, prim_, property_});
-      }
+  void add(std::optional<Index> a, std::optional<Index> b) {
+    if (sets_.was_cut() && std::exchange(told_cut_, prim_) != prim_) {
+      state_.scene.not_read.push_back(
+          {prim_, (property_.empty() ? state_.tokens.filtered_pairs : property_).str(),
+           "a collider is in more than " + std::to_string(limits::kSetsOfCollider) +
+               " sets that filters name (kSetsOfCollider); what is named beyond them is not kept "
+               "apart"});
     }
-  }
-  void add_all(const Colliders& a, const Colliders& b) {
-    for (const Index i : a) {
-      for (const Index j : b) {
-        add(i, j);
-      }
+    if (!a || !b || !sets_.can_touch(*a, *b)) {
+      return;
+    }
+    const auto [first, second] = std::minmax(*a, *b);
+    pairs_.emplace_back(first, second);
+    if (state_.provenance != nullptr) {
+      state_.provenance->pairs.push_back({first, second, rule_, prim_, property_});
     }
   }
 
@@ -129,7 +193,14 @@ class PairFilter {
 
   /// The colliders that a prim of a filtered pair means: a body's colliders, an articulation's
   /// links, one collider, or all below any other prim (S-81).
-  Colliders meant_by(Path path) const {
+  std::optional<Index> meant_by(Path path) {
+    const auto [entry, is_new] = meant_.try_emplace(path);
+    if (is_new) {
+      entry->second = sets_.of(colliders_meant_by(path));
+    }
+    return entry->second;
+  }
+  Colliders colliders_meant_by(Path path) const {
     Colliders list;
     if (const std::uint32_t found = state_.walk.index_of(path); found != kNone) {
       const PhysicsPrim& prim = state_.walk.prims[found];
@@ -161,7 +232,7 @@ class PairFilter {
   void add_filtered_pairs(std::uint32_t prim_index) {
     const PhysicsPrim& found = state_.walk.prims[prim_index];
     const Token name = state_.tokens.filtered_pairs;
-    const Colliders own = meant_by(found.path);
+    const std::optional<Index> own = meant_by(found.path);
     speaks(PairRule::FilteredPair, found.path);
     for (const Path& target : state_.targets(found.prim, name)) {
       if (!state_.stage.prim(target)) {
@@ -180,22 +251,37 @@ class PairFilter {
             "physics:filteredPairs names its own prim: contacts within it are off",
             "use the self collision switch of the articulation");
       }
-      add_all(own, meant_by(meant));
+      add(own, meant_by(meant));
     }
+  }
+
+  std::optional<Index> set_of_body(Index body) {
+    const auto [entry, is_new] = of_body_.try_emplace(body);
+    if (is_new) {
+      entry->second = sets_.of(state_.colliders_of_body[body]);
+    }
+    return entry->second;
+  }
+  std::optional<Index> static_set(Path path) {
+    const auto [entry, is_new] = static_below_.try_emplace(path);
+    if (is_new) {
+      Colliders list = below(path);
+      std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });
+      entry->second = sets_.of(std::move(list));
+    }
+    return entry->second;
   }
 
   /// The colliders of the body that a side is attached to, or the static ones below the prim that
   /// it names; none for the world. Bodies nested below are bodies of their own.
-  Colliders side(const std::optional<Index>& body, Path target, Path other) const {
+  std::optional<Index> side(const std::optional<Index>& body, Path target, Path other) {
     if (body) {
-      return state_.colliders_of_body[*body];
+      return set_of_body(*body);
     }
     if (target.empty() || other.has_prefix(target)) {
       return {};  // the world, or a prim above the other side that means it
     }
-    Colliders list = below(target);
-    std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });
-    return list;
+    return static_set(target);
   }
 
   // S-92
@@ -204,8 +290,8 @@ class PairFilter {
       return;
     }
     speaks(PairRule::Joint, joint.path);
-    add_all(side(joint.body0, joint.target0, joint.target1),
-            side(joint.body1, joint.target1, joint.target0));
+    add(side(joint.body0, joint.target0, joint.target1),
+        side(joint.body1, joint.target1, joint.target0));
   }
 
   /// A gear is a joint of its two bodies in this alone (gears.cpp).
@@ -225,7 +311,7 @@ class PairFilter {
       }
     }
     speaks(PairRule::Joint, found.path);
-    add_all(sides[0], sides[1]);
+    add(sets_.of(std::move(sides[0])), sets_.of(std::move(sides[1])));
   }
 
   void add_links(const Articulation& articulation) {
@@ -235,13 +321,19 @@ class PairFilter {
     }
     const PhysicsPrim& root = *state_.walk.find(articulation.path);
     speaks(PairRule::Articulation, articulation.path, self_collision_property(state_, root));
-    add_all(all, all);
+    const std::optional<Index> links = sets_.of(std::move(all));
+    add(links, links);
   }
 
   ReadState& state_;
-  std::vector<std::pair<Index, Index>>& pairs_;
+  Sets sets_;
+  std::unordered_map<Path, std::optional<Index>> meant_;         // by a prim of a filtered pair
+  std::unordered_map<Path, std::optional<Index>> static_below_;  // a prim that a joint names
+  std::unordered_map<Index, std::optional<Index>> of_body_;
+  SetPairs& pairs_;
   PairRule rule_ = PairRule::FilteredPair;
   Path prim_;
+  Path told_cut_;  // that was last told to name too much
   Token property_;
 };
 

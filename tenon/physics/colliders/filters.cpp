@@ -41,14 +41,7 @@ GroupTable group_table(const std::vector<AuthoredGroup>& groups, Ungrouped ungro
       set_of[i] = s;
     }
   }
-  const auto turn_off = [&](std::size_t a, std::size_t b) {
-    for (const Index i : sets[a]) {
-      for (const Index j : sets[b]) {
-        table.pair_off[i * count + j] = 1;
-        table.pair_off[j * count + i] = 1;
-      }
-    }
-  };
+  std::vector<char> sets_off(sets.size() * sets.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<char> named(sets.size(), 0);
     for (const Index target : groups[i].filtered) {
@@ -56,13 +49,19 @@ GroupTable group_table(const std::vector<AuthoredGroup>& groups, Ungrouped ungro
     }
     for (std::size_t s = 0; s < sets.size(); ++s) {
       if ((named[s] != 0) != groups[i].inverted) {
-        turn_off(set_of[i], s);
+        sets_off[set_of[i] * sets.size() + s] = 1;
+        sets_off[s * sets.size() + set_of[i]] = 1;
       }
     }
     if (groups[i].inverted && ungrouped == Ungrouped::Off) {
       for (const Index j : sets[set_of[i]]) {
         table.ungrouped_off[j] = 1;
       }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      table.pair_off[i * count + j] = sets_off[set_of[i] * sets.size() + set_of[j]];
     }
   }
   return table;

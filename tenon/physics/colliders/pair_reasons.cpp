@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// All reasons are looked for, not the first one alone: two colliders touch only when each
+// is removed. Pairs of sets say by themselves which prim keeps them apart (Provenance).
 #include <algorithm>
 
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/provenance.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::physics {
 namespace {
@@ -107,9 +111,10 @@ class Reasons {
   }
 
   void pairs(const Provenance& provenance) {
-    const auto pair = std::minmax(a_, b_);
+    const std::vector<Index>& own = scene::sets_of(scene_.filter, a_);
+    const std::vector<Index>& other = scene::sets_of(scene_.filter, b_);
     for (const PairProvenance& one : provenance.pairs) {
-      if (one.a != pair.first || one.b != pair.second) {
+      if (first_.body == second_.body || !scene::are_apart(own, other, {{one.a, one.b}})) {
         continue;
       }
       const std::string name = "<" + one.prim.str() + ">";

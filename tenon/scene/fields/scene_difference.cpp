@@ -66,14 +66,17 @@ std::vector<SceneDifference> filter_differences(const Side& before, const Side& 
   const CollisionFilter& a = before.scene.filter;
   const CollisionFilter& b = after.scene.filter;
   std::vector<SceneDifference> found;
-  add_names("pair", pair_words(before, before.scene.disabled_pairs()),
-            pair_words(after, after.scene.disabled_pairs()), found);
-  add_names("pair for good", pair_words(before, a.permanent_pairs),
-            pair_words(after, b.permanent_pairs), found);
+  const auto pairs_before = disabled_pair_words(before);
+  const auto pairs_after = disabled_pair_words(after);
+  if (pairs_before && pairs_after) {
+    add_names("pair", *pairs_before, *pairs_after, found);
+  }
+  add_names("pair for good", set_pair_words(before, a.permanent_sets_off),
+            set_pair_words(after, b.permanent_sets_off), found);
   add_names("pair while a joint holds", joint_pair_words(before), joint_pair_words(after), found);
-  if (!motion_alone) {
-    add_names("filtered pair", pair_words(before, a.pairs_off), pair_words(after, b.pairs_off),
-              found);
+  if (!motion_alone || !pairs_before || !pairs_after) {
+    add_names("filtered pair", set_pair_words(before, a.sets_off),
+              set_pair_words(after, b.sets_off), found);
     add_names("collision group", group_words(before), group_words(after), found);
   }
   return found;

@@ -387,16 +387,25 @@ bool take_over_in(const FieldPatch& patch, PhysicsScene& a, PhysicsScene& b) {
   return taken && !translation.failed();
 }
 
+/// Their filters do, and what of it holds for good or by joints is written alike.
+bool keep_the_same_apart(const PhysicsScene& a, const PhysicsScene& b) {
+  if (same_fields(a.filter, b.filter)) {
+    return true;
+  }
+  const ColliderPairs pairs = a.disabled_pairs();
+  return !pairs.is_cut && pairs == b.disabled_pairs() &&
+         same_fields(a.filter.sets_of_collider, b.filter.sets_of_collider) &&
+         same_fields(a.filter.permanent_sets_off, b.filter.permanent_sets_off) &&
+         same_fields(a.filter.joint_pairs, b.filter.joint_pairs);
+}
+
 /// Of a member of the scene.
 void collect(const Compared& sides, const FieldInfo& info, DataView x, DataView y,
              Collected& found) {
   const PhysicsScene& a = sides.a;
   const PhysicsScene& b = sides.b;
-  if (const CollisionFilter* filter = x.get_if<CollisionFilter>()) {
-    const CollisionFilter& other = y.as<CollisionFilter>();
-    if (!same_colliders(a, b) || a.disabled_pairs() != b.disabled_pairs() ||
-        !same_fields(filter->permanent_pairs, other.permanent_pairs) ||
-        !same_fields(filter->joint_pairs, other.joint_pairs)) {
+  if (x.is_a<CollisionFilter>()) {
+    if (!same_colliders(a, b) || !keep_the_same_apart(a, b)) {
       found.add("filter", {});
     }
   } else if (is_referred_to(*x.type)) {

@@ -122,7 +122,8 @@ struct Table<JointPairs> {
                                  .meaning = "that keeps them apart",
                                  .refers = List::Joints,
                                  .role = Role::Identity}),
-      field<&JointPairs::pairs>({.name = "pairs", .meaning = "indices of two colliders each"}),
+      field<&JointPairs::sets>(
+          {.name = "sets", .meaning = "numbers of two sets each", .former = "pairs"}),
   };
 };
 
@@ -138,10 +139,16 @@ struct Table<CollisionFilter> {
           {.name = "groupPairOff", .meaning = "groups by groups, by rows: 1 where they are apart"}),
       field<&CollisionFilter::ungrouped_off>(
           {.name = "ungroupedOff", .meaning = "1 where a group is apart from ungrouped ones"}),
-      field<&CollisionFilter::pairs_off>(
-          {.name = "pairsOff", .meaning = "indices of two colliders each, that do not touch"}),
-      field<&CollisionFilter::permanent_pairs>(
-          {.name = "permanentPairs", .meaning = "those that hold whatever becomes of joints"}),
+      field<&CollisionFilter::sets_of_collider>(
+          {.name = "setsOfCollider",
+           .meaning = "for each collider, numbers of sets that filters name; may end early"}),
+      field<&CollisionFilter::sets_off>({.name = "setsOff",
+                                         .meaning = "numbers of two sets each, that do not touch",
+                                         .former = "pairsOff"}),
+      field<&CollisionFilter::permanent_sets_off>(
+          {.name = "permanentSetsOff",
+           .meaning = "those that hold whatever becomes of joints",
+           .former = "permanentPairs"}),
       field<&CollisionFilter::joint_pairs>(
           {.name = "jointPairs", .meaning = "what single joints keep apart"}),
   };

@@ -37,6 +37,8 @@ class Collection {
   /// A limit was met (kCollectionVisits, kCollectionItems, kMatchWork): some of what belongs is not
   /// found. Also true once a question to `contains` took too much.
   bool is_cut() const { return is_cut_ || matcher_.is_exhausted(); }
+  /// Names compared so far for the membership expression, of which kMatchWork are allowed.
+  std::size_t match_work() const { return matcher_.work(); }
 
  private:
   bool included_by_rules(Path path) const;

@@ -3,6 +3,7 @@
 #include "tenon/stage/collections/path_matcher.h"
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "tenon/base/limits/work_limits.h"
@@ -16,6 +17,7 @@ using layer::PathPattern;
 Result<PathMatcher> PathMatcher::make(const PathExpressionTree& expression, const Prim& stage) {
   PathMatcher result;
   result.stage_ = stage;
+  std::unordered_map<std::string, std::int32_t> known;  // patterns by text
   for (layer::ExpressionNode node : expression.nodes()) {
     if (node.op == PathExpressionTree::Atom) {
       const PathPattern* pattern = expression.pattern(node);
@@ -29,15 +31,22 @@ Result<PathMatcher> PathMatcher::make(const PathExpressionTree& expression, cons
                                            " parts (kPatternParts)")
             .with_rule("stage.path-expression");
       }
+      const auto [entry, is_new] =
+          known.try_emplace(pattern->text(), static_cast<std::int32_t>(result.patterns_.size()));
+      node.left = entry->second;
+      result.nodes_.push_back(node);
+      if (!is_new) {
+        continue;
+      }
       Pattern compiled{*pattern, {}};
       for (const layer::PredicateExpression& predicate : pattern->predicates) {
         TENON_TRY(PrimPredicate bound, PrimPredicate::bind(predicate));
         compiled.predicates.push_back(std::move(bound));
       }
-      node.left = static_cast<std::int32_t>(result.patterns_.size());
       result.patterns_.push_back(std::move(compiled));
+    } else {
+      result.nodes_.push_back(node);
     }
-    result.nodes_.push_back(node);
   }
   result.root_ = expression.root();
   return result;
@@ -67,30 +76,30 @@ bool PathMatcher::matches(const Pattern& pattern, const std::vector<Path>& prefi
     return false;
   }
   work_ += prefixes.size() * (components.size() + 1);
-  // reachable[i]: the names so far match the first i components.
-  std::vector<bool> reachable(components.size() + 1, false);
-  reachable[0] = true;
+  // reached_[i]: the names so far match the first i components.
+  reached_.assign(components.size() + 1, 0);
+  reached_[0] = 1;
   const auto skip_stretches = [&] {
     for (std::size_t i = 0; i < components.size(); ++i) {
-      if (reachable[i] && components[i].is_stretch()) {
-        reachable[i + 1] = true;
+      if (reached_[i] != 0 && components[i].is_stretch()) {
+        reached_[i + 1] = 1;
       }
     }
   };
   skip_stretches();
   for (std::size_t at = pattern.text.prefix.depth() + 1; at < prefixes.size(); ++at) {
-    std::vector<bool> next(components.size() + 1, false);
+    reached_next_.assign(components.size() + 1, 0);
     for (std::size_t i = 0; i < components.size(); ++i) {
-      if (reachable[i] && components[i].is_stretch()) {
-        next[i] = true;
-      } else if (reachable[i] && !next[i + 1]) {
-        next[i + 1] = matches(pattern, components[i], prefixes[at]);
+      if (reached_[i] != 0 && components[i].is_stretch()) {
+        reached_next_[i] = 1;
+      } else if (reached_[i] != 0 && reached_next_[i + 1] == 0) {
+        reached_next_[i + 1] = matches(pattern, components[i], prefixes[at]) ? 1 : 0;
       }
     }
-    reachable = std::move(next);
+    reached_.swap(reached_next_);
     skip_stretches();
   }
-  return reachable[components.size()];
+  return reached_[components.size()] != 0;
 }
 
 bool PathMatcher::is_exhausted() const { return work_ > limits::kMatchWork; }
@@ -103,25 +112,34 @@ bool PathMatcher::matches(Path path) const {
   }
   const std::vector<Path> prefixes = path.prefixes();
   work_ += nodes_.size() + prefixes.size();
-  std::vector<bool> values;
-  values.reserve(nodes_.size());
-  const auto at = [&values](std::int32_t node) { return values[static_cast<std::size_t>(node)]; };
+  node_matches_.clear();
+  pattern_matches_.assign(patterns_.size(), -1);
+  const auto at = [&](std::int32_t node) {
+    return node_matches_[static_cast<std::size_t>(node)] != 0;
+  };
+  const auto pattern_at = [&](std::int32_t index) {
+    signed char& known = pattern_matches_[static_cast<std::size_t>(index)];
+    if (known < 0) {
+      known = matches(patterns_[static_cast<std::size_t>(index)], prefixes) ? 1 : 0;
+    }
+    return known != 0;
+  };
   for (const layer::ExpressionNode& node : nodes_) {
     switch (node.op) {
       case PathExpressionTree::Atom:
-        values.push_back(matches(patterns_[static_cast<std::size_t>(node.left)], prefixes));
+        node_matches_.push_back(pattern_at(node.left));
         break;
       case PathExpressionTree::Complement:
-        values.push_back(!at(node.left));
+        node_matches_.push_back(!at(node.left));
         break;
       case PathExpressionTree::Intersection:
-        values.push_back(at(node.left) && at(node.right));
+        node_matches_.push_back(at(node.left) && at(node.right));
         break;
       case PathExpressionTree::Difference:
-        values.push_back(at(node.left) && !at(node.right));
+        node_matches_.push_back(at(node.left) && !at(node.right));
         break;
       default:
-        values.push_back(at(node.left) || at(node.right));
+        node_matches_.push_back(at(node.left) || at(node.right));
     }
   }
   return at(root_);

@@ -24,6 +24,8 @@ class PathMatcher {
   bool is_empty() const { return root_ == layer::kNoNode; }
   /// So much was asked (kMatchWork) that nothing matches any more.
   bool is_exhausted() const;
+  /// Names compared so far.
+  std::size_t work() const { return work_; }
   /// `path` is a prim or property of the stage and is matched. Not to be called on two threads.
   bool matches(Path path) const;
 
@@ -39,7 +41,13 @@ class PathMatcher {
   Prim stage_;
   std::vector<layer::ExpressionNode> nodes_;
   std::int32_t root_ = layer::kNoNode;
-  std::vector<Pattern> patterns_;
+  std::vector<Pattern> patterns_;  // each once
+  // Of the question that is being answered: what each node and each pattern says (-1: not looked at
+  // yet), and which components the names so far reach.
+  mutable std::vector<char> node_matches_;
+  mutable std::vector<signed char> pattern_matches_;
+  mutable std::vector<char> reached_;
+  mutable std::vector<char> reached_next_;
   mutable std::size_t work_ = 0;  // beyond kMatchWork nothing matches any more
 };
 

@@ -410,12 +410,16 @@ Result<Model> compile(Build& build) {
 void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   const std::size_t geom_count = model.collider_of_geom.size();
   std::vector<int> geom_class(geom_count, 0);
+  std::vector<std::vector<scene::Index>> sets_of_geom(filter.sets_of_geom.empty() ? 0 : geom_count);
   std::vector<int> geom_surface(geom_count, -1);
   std::vector<char> keeps_solref(geom_count, 0);
   for (std::size_t g = 0; g < geom_count; ++g) {
     const int collider = model.collider_of_geom[g];
     if (collider >= 0) {
       geom_class[g] = filter.geom_class[static_cast<std::size_t>(collider)];
+      if (!filter.sets_of_geom.empty()) {
+        sets_of_geom[g] = filter.sets_of_geom[static_cast<std::size_t>(collider)];
+      }
     }
   }
   for (std::size_t i = 0; i < surfaces.of_collider.size(); ++i) {
@@ -436,6 +440,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   }
   std::sort(pairs.begin(), pairs.end());
   filter.geom_class = std::move(geom_class);
+  filter.sets_of_geom = std::move(sets_of_geom);
   filter.pairs_off = std::move(pairs);
   surfaces.geom_surface = std::move(geom_surface);
   surfaces.keeps_solref = std::move(keeps_solref);

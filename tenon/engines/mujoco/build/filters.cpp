@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Colliders that no rule tells apart form a class: same scene, same groups, both moving or not. Up
-// to 31 classes fit MuJoCo's contact bits. Explicit pairs become excluded body pairs where all
-// colliders of two bodies are concerned. What remains (many classes, single colliders of a body) is
-// asked for per geom pair by the callback of contact_filter.cpp, which costs time in every step.
+// to 31 classes fit MuJoCo's contact bits. Pairs of sets become excluded body pairs where all
+// colliders of two bodies are concerned. What remains (many classes, single colliders of a body,
+// sets that mean very many pairs) is asked for per geom pair by the callback of contact_filter.cpp,
+// which costs time in every step.
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -133,36 +136,6 @@ mjsBody* body_of(Build& build, const BodyKey& key) {
   return key.first ? build.static_bodies[key.second] : build.bodies[key.second];
 }
 
-using ColliderPairs = std::set<std::pair<Index, Index>>;
-
-// Pairs of all rules that name bodies or colliders one by one.
-ColliderPairs explicit_pairs(const scene::PhysicsScene& scene) {
-  ColliderPairs pairs(scene.filter.pairs_off.begin(), scene.filter.pairs_off.end());
-  std::vector<std::vector<Index>> colliders(scene.bodies.size());
-  for (Index i = 0; i < scene.colliders.size(); ++i) {
-    if (scene.colliders[i].body.has_value()) {
-      colliders[*scene.colliders[i].body].push_back(i);
-    }
-  }
-  for (const scene::Articulation& articulation : scene.articulations) {
-    if (articulation.self_collision) {
-      continue;
-    }
-    std::vector<Index> all;
-    for (const Index link : articulation.links) {
-      all.insert(all.end(), colliders[link].begin(), colliders[link].end());
-    }
-    for (const Index a : all) {
-      for (const Index b : all) {
-        if (a < b && scene.colliders[a].body != scene.colliders[b].body) {
-          pairs.emplace(a, b);
-        }
-      }
-    }
-  }
-  return pairs;
-}
-
 std::map<BodyKey, std::size_t> active_colliders(const Build& build) {
   std::map<BodyKey, std::size_t> counts;
   for (Index i = 0; i < build.geoms.size(); ++i) {
@@ -173,36 +146,101 @@ std::map<BodyKey, std::size_t> active_colliders(const Build& build) {
   return counts;
 }
 
-using Excludes = std::map<std::pair<BodyKey, BodyKey>, mjsExclude*>;
+using Pairs = std::vector<std::pair<Index, Index>>;
 
-// Excludes whole body pairs, into `excludes`; returns the collider pairs that are left.
-std::vector<std::pair<Index, Index>> exclude_bodies(Build& build, Excludes& excludes) {
-  std::map<std::pair<BodyKey, BodyKey>, std::vector<std::pair<Index, Index>>> by_bodies;
-  for (const auto& [a, b] : explicit_pairs(build.scene)) {
-    if (build.geoms[a].empty() || build.geoms[b].empty()) {
-      continue;
+/// Two bodies of MuJoCo, the lower one first.
+using BodyPair = std::pair<BodyKey, BodyKey>;
+
+/// So many pairs of bodies are excluded, and of colliders looked at one by one; more are left to
+/// the callback.
+constexpr std::size_t kMostPairs = 100'000;
+
+struct Excludes {
+  std::set<BodyPair> bodies;  // all of one are apart from all of the other
+  Pairs left;                 // colliders of other bodies
+};
+
+/// Finds the bodies that pairs of sets exclude.
+class ExcludePass {
+ public:
+  explicit ExcludePass(const Build& build) : build_(build), counts_(active_colliders(build)) {}
+
+  /// None where there are too many.
+  std::optional<Excludes> run() {
+    for (const std::vector<Index>& members : scene::members_of_sets(build_.scene.filter)) {
+      sets_.push_back(by_body(members));
     }
-    const BodyKey first = body_key(build.scene, a);
-    const BodyKey second = body_key(build.scene, b);
-    if (first != second && !(first.first && second.first)) {
-      by_bodies[std::minmax(first, second)].emplace_back(a, b);
+    for (const auto& [a, b] : build_.scene.filter.sets_off) {
+      for (const auto& [body_a, of_a] : sets_[a]) {
+        for (const auto& [body_b, of_b] : sets_[b]) {
+          add(body_a, of_a, body_b, of_b);
+          if (excludes_.bodies.size() > kMostPairs || ++work_ > 20 * kMostPairs) {
+            return std::nullopt;
+          }
+        }
+      }
+    }
+    sort_the_rest();
+    return std::move(excludes_);
+  }
+
+ private:
+  using Set = std::map<BodyKey, std::vector<Index>>;
+
+  Set by_body(const std::vector<Index>& members) const {
+    Set set;
+    for (const Index i : members) {
+      if (!build_.geoms[i].empty()) {
+        set[body_key(build_.scene, i)].push_back(i);
+      }
+    }
+    return set;
+  }
+  void add(const BodyKey& a, const std::vector<Index>& of_a, const BodyKey& b,
+           const std::vector<Index>& of_b) {
+    if (a == b || (a.first && b.first)) {
+      return;
+    }
+    const BodyPair bodies{std::min(a, b), std::max(a, b)};
+    if (of_a.size() == counts_.at(a) && of_b.size() == counts_.at(b)) {
+      excludes_.bodies.insert(bodies);
+      return;
+    }
+    work_ += of_a.size() * of_b.size();
+    if (work_ <= 20 * kMostPairs) {
+      for (const Index i : of_a) {
+        for (const Index j : of_b) {
+          rest_[bodies].emplace(std::min(i, j), std::max(i, j));
+        }
+      }
     }
   }
-  const std::map<BodyKey, std::size_t> counts = active_colliders(build);
-  std::vector<std::pair<Index, Index>> left;
-  for (const auto& [bodies, pairs] : by_bodies) {
-    if (pairs.size() < counts.at(bodies.first) * counts.at(bodies.second)) {
-      left.insert(left.end(), pairs.begin(), pairs.end());
-      continue;
+  /// Pairs of colliders may together be all of two bodies.
+  void sort_the_rest() {
+    for (const auto& [bodies, pairs] : rest_) {
+      if (pairs.size() == counts_.at(bodies.first) * counts_.at(bodies.second)) {
+        excludes_.bodies.insert(bodies);
+      } else if (!excludes_.bodies.contains(bodies)) {
+        excludes_.left.insert(excludes_.left.end(), pairs.begin(), pairs.end());
+      }
     }
-    mjsExclude* exclude = mjs_addExclude(build.spec.get());
-    mjs_setString(exclude->bodyname1,
-                  mjs_getString(mjs_getName(body_of(build, bodies.first)->element)));
-    mjs_setString(exclude->bodyname2,
-                  mjs_getString(mjs_getName(body_of(build, bodies.second)->element)));
-    excludes.emplace(bodies, exclude);
   }
-  return left;
+
+  const Build& build_;
+  std::map<BodyKey, std::size_t> counts_;
+  std::vector<Set> sets_;
+  std::map<BodyPair, std::set<std::pair<Index, Index>>> rest_;
+  std::size_t work_ = 0;
+  Excludes excludes_;
+};
+
+void add_exclude(Build& build, const BodyPair& bodies) {
+  mjsExclude* exclude = mjs_addExclude(build.spec.get());
+  const auto name = [&](const BodyKey& key) {
+    return mjs_getString(mjs_getName(body_of(build, key)->element));
+  };
+  mjs_setString(exclude->bodyname1, name(bodies.first));
+  mjs_setString(exclude->bodyname2, name(bodies.second));
 }
 
 /// What a body moves with: itself where it has freedom, else what holds it; none for the world.
@@ -223,7 +261,7 @@ std::vector<std::optional<Index>> moving_bodies(const Build& build) {
 }
 
 /// Pairs of bodies with shapes that MuJoCo keeps apart by itself, as one hangs on the other.
-std::set<std::pair<BodyKey, BodyKey>> apart_by_parent(const Build& build) {
+std::set<BodyPair> apart_by_parent(const Build& build) {
   const std::vector<std::optional<Index>> moving = moving_bodies(build);
   std::map<Index, std::vector<BodyKey>> groups;
   for (const auto& [key, count] : active_colliders(build)) {
@@ -231,7 +269,7 @@ std::set<std::pair<BodyKey, BodyKey>> apart_by_parent(const Build& build) {
       groups[*moving[key.second]].push_back(key);
     }
   }
-  std::set<std::pair<BodyKey, BodyKey>> result;
+  std::set<BodyPair> result;
   for (const auto& [body, keys] : groups) {
     const std::optional<Index>& parent = build.plan.forest.bodies[body].parent;
     const auto above = parent && moving[*parent] ? groups.find(*moving[*parent]) : groups.end();
@@ -245,15 +283,33 @@ std::set<std::pair<BodyKey, BodyKey>> apart_by_parent(const Build& build) {
 }
 
 /// In text: where all pairs that MuJoCo would keep apart by itself are apart, it does.
-void leave_parents_to_mujoco(Build& build, const Excludes& excludes) {
-  const auto apart = apart_by_parent(build);
-  const auto is_excluded = [&](const auto& pair) { return excludes.contains(pair); };
-  if (!std::all_of(apart.begin(), apart.end(), is_excluded)) {
+void leave_parents_to_mujoco(Build& build, std::set<BodyPair>& excluded) {
+  const std::set<BodyPair> apart = apart_by_parent(build);
+  if (std::includes(excluded.begin(), excluded.end(), apart.begin(), apart.end())) {
+    build.spec->option.disableflags &= ~static_cast<int>(mjDSBL_FILTERPARENT);
+    std::erase_if(excluded, [&](const BodyPair& pair) { return apart.contains(pair); });
+  }
+}
+
+/// What sets keep apart: bodies that are excluded, and what is left to the callback.
+void add_sets(Build& build, ContactFilter& filter) {
+  std::optional<Excludes> excludes = ExcludePass(build).run();
+  if (!excludes) {
+    filter.needed = true;
+    filter.sets_of_geom = build.scene.filter.sets_of_collider;  // until the ids are known
+    filter.sets_of_geom.resize(build.scene.colliders.size());
+    filter.sets_off = build.scene.filter.sets_off;
     return;
   }
-  build.spec->option.disableflags &= ~static_cast<int>(mjDSBL_FILTERPARENT);
-  for (const auto& pair : apart) {
-    mjs_delete(build.spec.get(), excludes.at(pair)->element);
+  for (const auto& [a, b] : excludes->left) {
+    filter.needed = true;
+    filter.pairs_off.push_back((std::uint64_t{a} << 32u) | b);
+  }
+  if (build.purpose != Purpose::Run) {
+    leave_parents_to_mujoco(build, excludes->bodies);
+  }
+  for (const BodyPair& bodies : excludes->bodies) {
+    add_exclude(build, bodies);
   }
 }
 
@@ -273,14 +329,7 @@ ContactFilter add_filters(Build& build) {
   } else {
     filter.needed = true;
   }
-  Excludes excludes;
-  for (const auto& [a, b] : exclude_bodies(build, excludes)) {
-    filter.needed = true;
-    filter.pairs_off.push_back((std::uint64_t{a} << 32u) | b);
-  }
-  if (!is_run) {
-    leave_parents_to_mujoco(build, excludes);
-  }
+  add_sets(build, filter);
   if (filter.needed && !is_run) {
     build.report(build.scene.scenes.front().path, "filteredPairs",
                  "some pairs of colliders are kept apart by tenon's runs alone: MuJoCo's models "

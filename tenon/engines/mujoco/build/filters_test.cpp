@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tenon/engines/mujoco/test_scene.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -70,7 +71,7 @@ TEST(Filters, ExplicitPairsOfBodiesAndOfSingleColliders) {
   TestScene scene = heap(3);
   scene.add_collider("Extra", 1, sphere(0.4));
   // Body 0 against all of body 1 would be (0,1) and (0,3); (1,2) leaves Extra against body 2.
-  scene.filter.pairs_off = {{0, 1}, {0, 3}, {1, 2}};
+  keep_pairs_apart(scene, {{0, 1}, {0, 3}, {1, 2}});
   EXPECT_EQ(touching(scene), (Pairs{{0, 2}, {2, 3}}));
 }
 
@@ -91,17 +92,27 @@ TEST(Filters, JointedNeighboursTouchUnlessFiltered) {
   TestScene scene = heap(2);
   scene.add_joint("Hinge", scene::JointKind::Revolute, 0, 1);
   EXPECT_EQ(touching(scene), (Pairs{{0, 1}}));  // collisionEnabled = true: no pair in the scene
-  scene.filter.pairs_off = {{0, 1}};
+  keep_pairs_apart(scene, {{0, 1}});
   EXPECT_EQ(touching(scene), Pairs{});  // S-92
 }
 
-TEST(Filters, ArticulationWithoutSelfCollision) {
+TEST(Filters, ASetIsApartFromItself) {
   TestScene scene = heap(4);
-  scene::Articulation articulation;
-  articulation.links = {0, 1, 2};
-  articulation.self_collision = false;
-  scene.articulations.push_back(articulation);
+  scene.filter.sets_of_collider = {{0}, {0}, {0}};
+  scene.filter.sets_off = {{0, 0}};
   EXPECT_EQ(touching(scene), (Pairs{{0, 3}, {1, 3}, {2, 3}}));
+}
+
+TEST(Filters, SetsOfMoreThanAHundredThousandPairs) {
+  constexpr Index kMany = 500;
+  TestScene scene = heap(kMany);
+  scene.filter.sets_of_collider.assign(kMany - 2, {0});
+  scene.filter.sets_off = {{0, 0}};
+  const Pairs pairs = touching(scene);
+  EXPECT_FALSE(pairs.empty());
+  for (const auto& [first, second] : pairs) {
+    EXPECT_GE(second, static_cast<int>(kMany - 2)) << first;
+  }
 }
 
 TEST(Filters, KinematicBodiesAndStaticsIgnoreEachOther) {
@@ -124,7 +135,7 @@ TEST(Filters, DisabledCollidersAndOtherScenesDoNotTouch) {
 TEST(Filters, StaticColliderAgainstOneBody) {
   TestScene scene = heap(2);
   const auto wall = scene.add_collider("Wall", {}, sphere(0.5));
-  scene.filter.pairs_off = {{0, wall}};
+  keep_pairs_apart(scene, {{0, wall}});
   EXPECT_EQ(touching(scene), (Pairs{{0, 1}, {1, 2}}));
 }
 

@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/mesh_pieces.h"
 #include "tenon/engines/mujoco/build/model_size.h"
+#include "tenon/scene/filter_sets.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -115,8 +117,14 @@ std::vector<char> own_static_bodies(const scene::PhysicsScene& scene, Purpose pu
     return own;
   }
   std::fill(own.begin(), own.end(), 0);
-  for (const auto& [first, second] : scene.filter.pairs_off) {
-    own[first] = own[second] = 1;
+  std::set<scene::Index> sets;  // that are kept apart from others
+  for (const auto& [first, second] : scene.filter.sets_off) {
+    sets.insert({first, second});
+  }
+  for (scene::Index i = 0; i < scene.colliders.size(); ++i) {
+    const std::vector<scene::Index>& of = scene::sets_of(scene.filter, i);
+    own[i] =
+        std::any_of(of.begin(), of.end(), [&](scene::Index set) { return sets.contains(set); });
   }
   for (const scene::PoseTrack& track : scene.pose_tracks) {
     if (track.collider.has_value()) {
