@@ -121,6 +121,7 @@ void end_at_interrupt() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tenon::cli::leave_last_words();
   tenon::keep_heap_in_huge_pages();
   tenon::cli::begin_output();
   end_at_interrupt();

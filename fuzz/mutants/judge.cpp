@@ -55,7 +55,8 @@ bool is_large_composition(const std::string& errors) {
 /// A crash, a report of a sanitizer, too much time or memory.
 std::string fault_of_process(const Subject& subject, const ProgramRun& run, std::size_t allowed,
                              const std::string& errors) {
-  for (const char* word : {"runtime error:", "ERROR: AddressSanitizer", "ERROR: LeakSanitizer"}) {
+  for (const char* word :
+       {"runtime error:", "ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "[program."}) {
     if (errors.find(word) != std::string::npos) {
       return "report: " + first_line_with(errors, word);
     }
