@@ -44,6 +44,13 @@ bool take_step(const CommitStep& step) {
       return ::rename(step.from.c_str(), step.to.c_str()) == 0;
     case Kind::Remove:
       return ::unlink(step.to.c_str()) == 0 || errno == ENOENT;
+    case Kind::Sync:
+      if (const int folder = ::open(step.to.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+          folder >= 0) {
+        ::fsync(folder);
+        ::close(folder);
+      }
+      return true;
   }
   return false;
 }
@@ -101,6 +108,23 @@ std::vector<CommitStep> steps_of(const std::string& home, const std::string& bir
   return steps;
 }
 
+/// The folders in which steps change names.
+std::set<std::string> folders_of(const std::vector<CommitStep>& steps) {
+  std::set<std::string> folders;
+  for (const CommitStep& step : steps) {
+    folders.insert(fs::path(step.to).parent_path().string());
+  }
+  return folders;
+}
+
+std::vector<CommitStep> syncs_of(const std::set<std::string>& folders) {
+  std::vector<CommitStep> steps;
+  for (const std::string& folder : folders) {
+    steps.push_back({Kind::Sync, "", folder});
+  }
+  return steps;
+}
+
 struct Journal {
   std::string birth;
   std::string text;
@@ -134,7 +158,8 @@ Result<void> finish_journal(const std::string& home) {
   if (!journal) {
     return {};
   }
-  for (const CommitStep& step : steps_of(home, journal->birth, journal->text)) {
+  const std::vector<CommitStep> steps = steps_of(home, journal->birth, journal->text);
+  for (const CommitStep& step : steps) {
     const bool done = step.kind == Kind::Rename && ::access(step.from.c_str(), F_OK) != 0;
     if (!done && !take_step(step)) {
       return Error(ErrorCode::Io, "an edit that was interrupted cannot be finished: " +
@@ -144,11 +169,32 @@ Result<void> finish_journal(const std::string& home) {
           .with_fix("allow writing in this folder, then run this again");
     }
   }
-  ::unlink(path.c_str());
+  std::vector<CommitStep> end = syncs_of(folders_of(steps));
+  end.push_back({Kind::Remove, "", path});
+  end.push_back({Kind::Sync, "", home});
+  take_steps(end);
   return {};
 }
 
 }  // namespace
+
+CommitPlan ordered_with_journal(std::vector<CommitStep> links, const CommitStep& journal,
+                                const std::string& home, std::vector<CommitStep> changes,
+                                const std::vector<std::string>& made) {
+  std::set<std::string> folders = folders_of(changes);
+  const auto append = [](std::vector<CommitStep>& list, const std::vector<CommitStep>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+  };
+  const std::vector<CommitStep> after = syncs_of(folders);
+  for (const std::string& folder : made) {
+    folders.insert(fs::path(folder).parent_path().string());
+  }
+  append(links, syncs_of(folders));
+  append(links, {journal, {Kind::Sync, "", home}});
+  append(changes, after);
+  append(changes, {{Kind::Remove, "", journal.to}, {Kind::Sync, "", home}});
+  return {std::move(links), std::move(changes)};
+}
 
 StepsDone take_steps(const std::vector<CommitStep>& steps) {
   StepsDone done;

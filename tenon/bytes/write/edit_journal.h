@@ -14,11 +14,26 @@ namespace tenon::bytes {
 
 /// One system call of the last part of a transaction.
 struct CommitStep {
-  enum class Kind { Link, Rename, Remove };
+  /// Sync: a folder's names reach the disk. That they may not is no error.
+  enum class Kind { Link, Rename, Remove, Sync };
   Kind kind = Kind::Rename;
   std::string from;  ///< Link, Rename: an open file, or a hidden name
   std::string to;
 };
+
+/// The steps of a transaction of several files.
+struct CommitPlan {
+  std::vector<CommitStep> before;   ///< give hidden names, and the journal its own
+  std::vector<CommitStep> changes;  ///< of files; then the journal goes
+};
+
+/// The order in which a power cut leaves the files old or new, or a journal that makes them new:
+/// the hidden names are on the disk before the journal is, and the journal before the first change
+/// and until the last one. `links` give hidden names; `journal` gives the journal its name in
+/// `home`; `changes` rename and remove; `made` are folders that are new.
+CommitPlan ordered_with_journal(std::vector<CommitStep> links, const CommitStep& journal,
+                                const std::string& home, std::vector<CommitStep> changes,
+                                const std::vector<std::string>& made);
 
 /// The state of the steps.
 struct StepsDone {

@@ -330,13 +330,12 @@ class Commit {
       steps.push_back({Kind::Remove, "", removal.path});
     }
     NewFile journal(home_ + "/");
-    add_journal(journal, links, steps);
-    std::vector<CommitStep> all = links;
-    all.insert(all.end(), steps.begin(), steps.end());
+    const CommitPlan plan = with_journal(journal, std::move(links), std::move(steps));
+    std::vector<CommitStep> all = plan.before;
+    all.insert(all.end(), plan.changes.begin(), plan.changes.end());
     const StepsDone done = take_steps_unkillably(all);
-    const std::size_t changed = done.count > links.size() ? done.count - links.size() : 0;
-    if (done.error != 0 && changed == 0) {
-      undo_links(links, done.count);
+    if (done.error != 0 && done.count <= plan.before.size()) {
+      undo_links(plan.before, done.count);
       return done.error;
     }
     for (NewFile& file : files_) {
@@ -346,26 +345,31 @@ class Commit {
   }
 
   /// Where it cannot be written, an unkillable child is all there is.
-  void add_journal(NewFile& journal, std::vector<CommitStep>& links,
-                   std::vector<CommitStep>& steps) const {
-    if (home_.empty() || journal.open() != 0) {
-      return;
+  CommitPlan with_journal(NewFile& journal, std::vector<CommitStep> links,
+                          std::vector<CommitStep> steps) const {
+    const auto is_written = [&] {
+      if (home_.empty() || journal.open() != 0) {
+        return false;
+      }
+      const std::string birth = file_birth(journal.descriptor());
+      return !birth.empty() && journal.write(journal_text(home_, birth, steps)) == 0 &&
+             journal.sync() == 0;
+    };
+    if (!is_written()) {
+      return {std::move(links), std::move(steps)};
     }
-    const std::string birth = file_birth(journal.descriptor());
-    if (birth.empty() || journal.write(journal_text(home_, birth, steps)) != 0 ||
-        journal.sync() != 0) {
-      return;
-    }
-    const std::string name = home_ + "/" + std::string(kJournalName);
     const bool nameless = journal.name().empty();
-    links.push_back({nameless ? Kind::Link : Kind::Rename,
-                     nameless ? journal.link_source() : journal.name(), name});
-    steps.push_back({Kind::Remove, "", name});
+    const CommitStep name{nameless ? Kind::Link : Kind::Rename,
+                          nameless ? journal.link_source() : journal.name(),
+                          home_ + "/" + std::string(kJournalName)};
+    return ordered_with_journal(std::move(links), name, home_, std::move(steps), made_folders_);
   }
 
   static void undo_links(const std::vector<CommitStep>& links, std::size_t count) {
     for (std::size_t i = 0; i < std::min(count, links.size()); ++i) {
-      ::unlink(links[i].to.c_str());
+      if (links[i].kind != Kind::Sync) {
+        ::unlink(links[i].to.c_str());
+      }
     }
   }
 
