@@ -3,8 +3,15 @@
 #include "tenon/engines/engines.h"
 
 #include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
 
 #include <gtest/gtest.h>
+
+#include "tenon/base/limits/run_limits.h"
+#include "tenon/engines/input_log.h"
+#include "tenon/engines/state_bytes.h"
 
 namespace tenon::engines {
 namespace {
@@ -51,6 +58,37 @@ TEST(Engines, MakesTheNamedOneOrSaysWhyNot) {
     ASSERT_FALSE(made.has_value()) << c.name;
     EXPECT_EQ(made.error().code(), c.code) << c.name;
   }
+}
+
+const StateOwner kOwner{"engine", "1", 7, 0.002};
+
+std::string bytes_of(std::uint64_t number) {
+  std::string bytes(sizeof number, '\0');
+  std::memcpy(bytes.data(), &number, sizeof number);
+  return bytes;
+}
+
+TEST(InputLog, RunsOfMoreStepsThanAreRepeatedAreNotSaved) {
+  EXPECT_TRUE(save_run(kOwner, {}, limits::kRepeatedSteps, {}).has_value());
+  const auto saved = save_run(kOwner, {}, limits::kRepeatedSteps + 1, {});
+  ASSERT_FALSE(saved.has_value());
+  EXPECT_EQ(saved.error().code(), ErrorCode::Limit);
+}
+
+// The digest of a state is no secret: one that asks for a thousand million steps may be sound.
+TEST(InputLog, StatesOfMoreStepsThanAreRepeatedAreRefused) {
+  constexpr std::uint64_t kSteps = 1'234'567;
+  const auto saved = save_run(kOwner, {}, kSteps, {});
+  ASSERT_TRUE(saved.has_value());
+  auto body = open_state(kOwner, *saved);
+  ASSERT_TRUE(body.has_value());
+  const std::size_t at = body->find(bytes_of(kSteps));
+  ASSERT_NE(at, std::string::npos);
+  body->replace(at, sizeof kSteps, bytes_of(1'000'000'000));
+  const auto run = open_run(kOwner, {}, seal_state(kOwner, *body));
+  ASSERT_FALSE(run.has_value());
+  EXPECT_EQ(run.error().code(), ErrorCode::Limit);
+  EXPECT_NE(run.error().to_string().find("kRepeatedSteps"), std::string::npos);
 }
 
 }  // namespace

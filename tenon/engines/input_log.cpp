@@ -7,14 +7,13 @@
 // damaged.
 #include "tenon/engines/input_log.h"
 
+#include "tenon/base/limits/run_limits.h"
 #include "tenon/base/wire.h"
 
 namespace tenon::engines {
 namespace {
 
 using scene::Index;
-
-constexpr std::uint64_t kMostSteps = 1'000'000'000;
 
 struct SavedRun {
   DriveTerms drives = DriveTerms::Engine;
@@ -193,6 +192,22 @@ std::optional<std::vector<Input>> read_inputs(std::string_view bytes) {
   return inputs;
 }
 
+namespace {
+
+Result<void> check_steps(std::uint64_t steps) {
+  if (steps <= limits::kRepeatedSteps) {
+    return {};
+  }
+  return Error(ErrorCode::Limit,
+               "a state on this engine is restored by making the run again, and " +
+                   std::to_string(steps) + " steps are more than " +
+                   std::to_string(limits::kRepeatedSteps) + " (kRepeatedSteps)")
+      .with_rule("simulation.state")
+      .with_fix("save earlier, or use the engine mujoco, whose states need no steps");
+}
+
+}  // namespace
+
 Result<std::string> save_run(const StateOwner& owner, const SimulationOptions& options,
                              std::uint64_t steps, const InputLog& log) {
   if (!log.is_whole()) {
@@ -203,6 +218,7 @@ Result<std::string> save_run(const StateOwner& owner, const SimulationOptions& o
         .with_rule("simulation.state")
         .with_fix("save earlier, or set only what changes");
   }
+  TENON_CHECK(check_steps(steps));
   return seal_state(owner,
                     wire::encoded(SavedRun{options.drives, options.methods, steps, log.bytes()}));
 }
@@ -212,11 +228,11 @@ Result<RunToRepeat> open_run(const StateOwner& owner, const SimulationOptions& o
   TENON_TRY(const std::string body, open_state(owner, bytes));
   const std::optional<SavedRun> run = wire::decoded<SavedRun>(body);
   auto inputs = run ? read_inputs(run->inputs) : std::nullopt;
-  const bool fits =
-      inputs && run->steps <= kMostSteps && (inputs->empty() || inputs->back().step <= run->steps);
+  const bool fits = inputs && (inputs->empty() || inputs->back().step <= run->steps);
   if (!fits) {
     return bad_state("its parts do not fit together");
   }
+  TENON_CHECK(check_steps(run->steps));
   if (run->drives != options.drives || run->methods != options.methods) {
     return Error(ErrorCode::Unsupported, "the saved state is of other SimulationOptions")
         .with_rule("simulation.state");
