@@ -270,11 +270,14 @@ class Compare(unittest.TestCase):
 
     def test_reports(self):
         class Page(html.parser.HTMLParser):
-            plots, links = 0, []
+            plots, links, policies = 0, [], []
 
             def handle_starttag(self, tag, attributes):
                 self.plots += tag == "svg"
                 self.links += [value for key, value in attributes if key in ("href", "src")]
+                named = dict(attributes)
+                if named.get("http-equiv") == "Content-Security-Policy":
+                    self.policies.append(named["content"])
 
         file = self.scene(PLANTED["velocity"][2])
         for ending in ("html", "csv", "json"):
@@ -284,6 +287,7 @@ class Compare(unittest.TestCase):
         page = Page()
         page.feed((self.folder / "report.html").read_text())
         self.assertEqual(page.links, [])
+        self.assertEqual(page.policies, ["default-src 'none'; style-src 'unsafe-inline'"])
         self.assertGreaterEqual(page.plots, 5)
         rows = list(csv.DictReader((self.folder / "report.csv").read_text().splitlines()))
         position = next(row for row in rows if row["metric"] == "position")

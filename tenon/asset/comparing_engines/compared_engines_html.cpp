@@ -176,7 +176,10 @@ std::string compared_engines_part(const ComparedEngines& compared, bool timing) 
 
 std::string compared_engines_html(const std::string& asset, const ComparedEngines& compared,
                                   bool timing) {
+  // The page holds no script and asks for nothing.
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+         "style-src 'unsafe-inline'\">"
          "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
          html_text(asset) + "</title><style>" + kStyle + "</style></head><body>\n<h1>" +
          html_text(asset) + "</h1>\n" + compared_engines_part(compared, timing) +
