@@ -148,6 +148,9 @@ def judgements():
                                       "--scenes", "5000", "--show", "3", "--misses",
                                       "tests/differential/random_scenes_misses.txt"],
                     "bench", ["tenon_composition_dump"])
+    yield Judgement("compose_twins", ["{python}", "-B", "tests/differential/compose_twins.py",
+                                      "build/bench/bin/tenon_composition_dump",
+                                      "--scenes", "500"], "bench", ["tenon_composition_dump"])
     yield from corpora()
     yield Judgement("recordings", ["{python}", "-B", "tests/view/recordings.py", ".",
                                    "build/release/bin/tenon"], "release")
