@@ -61,12 +61,15 @@ extern "C" void end_by_signal(int number) {
     end("error: out of memory: a limit of the system is met [program.memory]\n"
         "  fix: allow more (ulimit -v, ulimit -s)\n");
   }
-  say("error: tenon crashed [program.crash]\n  fix: please report this with the input\n");
+  say("error: the program crashed [program.crash]\n  fix: please report this with the input\n");
   std::signal(number, SIG_DFL);
   std::raise(number);
 }
 
 [[noreturn]] void end_by_exception() {
+  constexpr std::string_view kUnknown =
+      "error: an exception ended the program [program.exception]\n"
+      "  fix: please report this with the input\n";
   try {
     if (const std::exception_ptr thrown = std::current_exception()) {
       std::rethrow_exception(thrown);
@@ -79,9 +82,9 @@ extern "C" void end_by_signal(int number) {
     end(" [program.exception]\n  fix: allow more threads and files (ulimit -u, ulimit -n), or "
         "report this with the input\n");
   } catch (...) {
+    end(kUnknown);
   }
-  end("error: tenon ended by an exception [program.exception]\n  fix: please report this with the "
-      "input\n");
+  end(kUnknown);
 }
 
 }  // namespace
