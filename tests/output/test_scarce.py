@@ -9,6 +9,7 @@ temporary files, no HOME. It ends with an exit code of the table, and says why w
 PROGRAM is built with the preset `release`: sanitizers reserve terabytes of addresses.
 """
 
+import errno
 import os
 import pathlib
 import resource
@@ -65,12 +66,14 @@ def fault_of(words, folder, environment, apply):
                               capture_output=True, timeout=60, check=False)
     except subprocess.TimeoutExpired:
         return "does not end"
-    except OSError as error:
-        return "" if error.errno in (7, 11, 12) else str(error)  # the system does not even start it
+    except OSError as error:  # not started: no room, or a place that nobody else may enter
+        return "" if error.errno in (errno.E2BIG, errno.EAGAIN, errno.ENOMEM, errno.EACCES) else \
+            str(error)
+    except subprocess.SubprocessError:  # too little for Python itself, before the program
+        return ""
     tells_on_output = "--json" in words or words == ["doctor"]
     said = (done.stderr + (done.stdout if tells_on_output else b"")).decode(errors="replace")
-    loader = done.returncode == 127 and "shared librar" in said or "cannot allocate" in said.lower()
-    if done.returncode == -9 or loader:  # the kernel or the loader ends it before main()
+    if done.returncode in (-9, 127):  # the kernel or the loader ends it before main()
         return ""
     if done.returncode not in EXITS:
         return f"exit {done.returncode}: {said[-300:]}"
