@@ -7,7 +7,6 @@
 // whole.
 #include <array>
 #include <csignal>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -51,7 +50,8 @@ bool memory_is_limited() {
 extern "C" void end_by_signal(int number) {
   if (number == SIGABRT) {
     end("error: a library gave up, as it does where the system gives it no memory, thread or file "
-        "[program.library]\n  fix: allow more (ulimit -a), or report this with the input\n");
+        "[program.library]\n  fix: allow more (`ulimit -a` lists what is allowed), or report this "
+        "with the input\n");
   }
   if (number == SIGBUS) {
     end("error: a file became shorter while it was read, or cannot be read any more "

@@ -3,14 +3,8 @@
 #include "tenon/scene/filter_sets.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tenon::scene {
-namespace {
-
-constexpr Index kNobody = std::numeric_limits<Index>::max();
-
-}  // namespace
 
 const std::vector<Index>& sets_of(const CollisionFilter& filter, Index collider) {
   static const std::vector<Index> none;
@@ -64,38 +58,6 @@ void keep_pairs_apart(PhysicsScene& scene, SetPairs pairs) {
   std::sort(pairs.begin(), pairs.end());
   scene.filter.sets_off = pairs;
   scene.filter.permanent_sets_off = std::move(pairs);
-}
-
-SetWalk::SetWalk(const CollisionFilter& filter)
-    : filter_(filter),
-      members_(members_of_sets(filter)),
-      partners_(members_.size()),
-      found_for_(filter.sets_of_collider.size(), kNobody) {
-  for (const auto& [a, b] : filter.sets_off) {
-    partners_[a].push_back(b);
-    if (a != b) {
-      partners_[b].push_back(a);
-    }
-  }
-}
-
-const std::vector<Index>& SetWalk::above(Index collider) {
-  found_.clear();
-  for (const Index set : sets_of(filter_, collider)) {
-    for (const Index partner : partners_[set]) {
-      const std::vector<Index>& members = members_[partner];
-      auto at = std::upper_bound(members.begin(), members.end(), collider);
-      work_ += 1 + static_cast<std::size_t>(members.end() - at);
-      for (; at != members.end(); ++at) {
-        if (found_for_[*at] != collider) {
-          found_for_[*at] = collider;
-          found_.push_back(*at);
-        }
-      }
-    }
-  }
-  std::sort(found_.begin(), found_.end());
-  return found_;
 }
 
 }  // namespace tenon::scene

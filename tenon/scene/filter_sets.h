@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -27,25 +26,5 @@ std::vector<std::vector<Index>> members_of_sets(const CollisionFilter& filter);
 void make_each_a_set(PhysicsScene& scene);
 /// The same, and `pairs`, first < second, are apart for good.
 void keep_pairs_apart(PhysicsScene& scene, SetPairs pairs);
-
-/// Walks over the pairs of colliders that pairs of sets mean.
-class SetWalk {
- public:
-  /// Over those of `filter.sets_off`.
-  explicit SetWalk(const CollisionFilter& filter);
-
-  /// Colliders above `collider` that are kept apart from it, ascending; also those of its own body.
-  const std::vector<Index>& above(Index collider);
-  /// Colliders looked at so far.
-  std::size_t work() const { return work_; }
-
- private:
-  const CollisionFilter& filter_;
-  std::vector<std::vector<Index>> members_;   // of each set
-  std::vector<std::vector<Index>> partners_;  // sets that each set is apart from
-  std::vector<Index> found_;
-  std::vector<Index> found_for_;  // of each collider: the last one that it was found for
-  std::size_t work_ = 0;
-};
 
 }  // namespace tenon::scene

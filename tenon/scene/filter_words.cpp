@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/content_digest.h"
 #include "tenon/scene/filter_sets.h"
 
 namespace tenon::scene {
@@ -19,21 +20,12 @@ namespace {
 /// So many are told one by one; more by a number for all of them.
 constexpr std::size_t kOneByOne = 200'000;
 
-/// FNV-1a.
-std::uint64_t hash_of(Path path) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : path.str()) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  return hash;
-}
-
 /// Lists of paths as words, whatever their order.
 class ListWords {
  public:
   explicit ListWords(const std::vector<Path>& paths) {
     for (const Path path : paths) {
-      hashes_.push_back(hash_of(path));
+      hashes_.push_back(content_digest(path.str()));
     }
   }
 
@@ -119,9 +111,10 @@ class SetWords {
 /// "/A apart from /B".
 void add_apart(const std::vector<Path>& groups, const std::vector<char>& pair_off,
                std::set<std::string>& words) {
-  const ListWords lists(groups);
   const auto count =
       std::count_if(pair_off.begin(), pair_off.end(), [](char off) { return off != 0; });
+  const bool one_by_one = static_cast<std::size_t>(count) <= kOneByOne;
+  const ListWords lists(one_by_one ? std::vector<Path>() : groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<Index> others;
     for (std::size_t h = 0; h < groups.size(); ++h) {
@@ -129,7 +122,7 @@ void add_apart(const std::vector<Path>& groups, const std::vector<char>& pair_of
         others.push_back(static_cast<Index>(h));
       }
     }
-    if (static_cast<std::size_t>(count) > kOneByOne) {
+    if (!one_by_one) {
       words.insert(groups[g].str() + " apart from groups " + lists(others));
       continue;
     }

@@ -216,6 +216,48 @@ bool PhysicsScene::may_meet(Index collider_a, Index collider_b) const {
 
 namespace {
 
+/// Walks over the pairs of colliders that pairs of sets keep apart, also of one body.
+class SetWalk {
+ public:
+  explicit SetWalk(const CollisionFilter& filter)
+      : filter_(filter),
+        members_(members_of_sets(filter)),
+        partners_(members_.size()),
+        found_for_(filter.sets_of_collider.size()) {
+    for (const auto& [a, b] : filter.sets_off) {
+      partners_[a].push_back(b);
+      if (a != b) {
+        partners_[b].push_back(a);
+      }
+    }
+  }
+
+  /// Adds the colliders above `collider` that are kept apart from it, each once.
+  void add_above(Index collider, std::vector<Index>& list) {
+    for (const Index set : sets_of(filter_, collider)) {
+      for (const Index partner : partners_[set]) {
+        const std::vector<Index>& members = members_[partner];
+        auto at = std::upper_bound(members.begin(), members.end(), collider);
+        work_ += 1 + static_cast<std::size_t>(members.end() - at);
+        for (; at != members.end(); ++at) {
+          if (found_for_[*at] != collider) {
+            found_for_[*at] = collider;
+            list.push_back(*at);
+          }
+        }
+      }
+    }
+  }
+  std::size_t work() const { return work_; }
+
+ private:
+  const CollisionFilter& filter_;
+  std::vector<std::vector<Index>> members_;      // of each set
+  std::vector<std::vector<Index>> partners_;     // sets that each set is apart from
+  std::vector<std::optional<Index>> found_for_;  // of each collider: the last one it was found for
+  std::size_t work_ = 0;
+};
+
 /// Walks over the pairs of colliders whose groups keep them apart. Colliders of the same groups are
 /// looked at together.
 class GroupWalk {
@@ -282,7 +324,8 @@ ColliderPairs PhysicsScene::disabled_pairs() const {
   SetWalk sets(filter);
   GroupWalk groups(*this);
   for (Index a = 0; a < colliders.size(); ++a) {
-    std::vector<Index> others = sets.above(a);
+    std::vector<Index> others;
+    sets.add_above(a, others);
     groups.add_above(a, others);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());

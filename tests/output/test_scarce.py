@@ -78,7 +78,7 @@ def fault_of(words, folder, environment, apply):
     if done.returncode not in EXITS:
         return f"exit {done.returncode}: {said[-300:]}"
     if done.returncode in (2, 3, 4) and not said.strip():
-        return f"exit {done.returncode} without a word"
+        return f"exit {done.returncode} without a message"
     return ""
 
 

@@ -166,6 +166,17 @@ class PairFilter {
     }
   }
 
+  /// The set of the colliders that `find` gives for a key, which is asked once for each.
+  template <class Key, class Find>
+  std::optional<Index> once(std::unordered_map<Key, std::optional<Index>>& known, Key key,
+                            Find find) {
+    const auto [entry, is_new] = known.try_emplace(key);
+    if (is_new) {
+      entry->second = sets_.of(find());
+    }
+    return entry->second;
+  }
+
   void append(Index body, Colliders& list) const {
     const Colliders& own = state_.colliders_of_body[body];
     list.insert(list.end(), own.begin(), own.end());
@@ -194,11 +205,7 @@ class PairFilter {
   /// The colliders that a prim of a filtered pair means: a body's colliders, an articulation's
   /// links, one collider, or all below any other prim (S-81).
   std::optional<Index> meant_by(Path path) {
-    const auto [entry, is_new] = meant_.try_emplace(path);
-    if (is_new) {
-      entry->second = sets_.of(colliders_meant_by(path));
-    }
-    return entry->second;
+    return once(meant_, path, [&] { return colliders_meant_by(path); });
   }
   Colliders colliders_meant_by(Path path) const {
     Colliders list;
@@ -256,20 +263,14 @@ class PairFilter {
   }
 
   std::optional<Index> set_of_body(Index body) {
-    const auto [entry, is_new] = of_body_.try_emplace(body);
-    if (is_new) {
-      entry->second = sets_.of(state_.colliders_of_body[body]);
-    }
-    return entry->second;
+    return once(of_body_, body, [&] { return state_.colliders_of_body[body]; });
   }
   std::optional<Index> static_set(Path path) {
-    const auto [entry, is_new] = static_below_.try_emplace(path);
-    if (is_new) {
+    return once(static_below_, path, [&] {
       Colliders list = below(path);
       std::erase_if(list, [&](Index i) { return state_.scene.colliders[i].body.has_value(); });
-      entry->second = sets_.of(std::move(list));
-    }
-    return entry->second;
+      return list;
+    });
   }
 
   /// The colliders of the body that a side is attached to, or the static ones below the prim that

@@ -111,10 +111,13 @@ class Reasons {
   }
 
   void pairs(const Provenance& provenance) {
+    if (first_.body == second_.body) {
+      return;
+    }
     const std::vector<Index>& own = scene::sets_of(scene_.filter, a_);
     const std::vector<Index>& other = scene::sets_of(scene_.filter, b_);
     for (const PairProvenance& one : provenance.pairs) {
-      if (first_.body == second_.body || !scene::are_apart(own, other, {{one.a, one.b}})) {
+      if (!scene::are_apart(own, other, {{one.a, one.b}})) {
         continue;
       }
       const std::string name = "<" + one.prim.str() + ">";

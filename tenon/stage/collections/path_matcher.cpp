@@ -34,19 +34,16 @@ Result<PathMatcher> PathMatcher::make(const PathExpressionTree& expression, cons
       const auto [entry, is_new] =
           known.try_emplace(pattern->text(), static_cast<std::int32_t>(result.patterns_.size()));
       node.left = entry->second;
-      result.nodes_.push_back(node);
-      if (!is_new) {
-        continue;
+      if (is_new) {
+        Pattern compiled{*pattern, {}};
+        for (const layer::PredicateExpression& predicate : pattern->predicates) {
+          TENON_TRY(PrimPredicate bound, PrimPredicate::bind(predicate));
+          compiled.predicates.push_back(std::move(bound));
+        }
+        result.patterns_.push_back(std::move(compiled));
       }
-      Pattern compiled{*pattern, {}};
-      for (const layer::PredicateExpression& predicate : pattern->predicates) {
-        TENON_TRY(PrimPredicate bound, PrimPredicate::bind(predicate));
-        compiled.predicates.push_back(std::move(bound));
-      }
-      result.patterns_.push_back(std::move(compiled));
-    } else {
-      result.nodes_.push_back(node);
     }
+    result.nodes_.push_back(node);
   }
   result.root_ = expression.root();
   return result;

@@ -151,9 +151,9 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 /// Two bodies of MuJoCo, the lower one first.
 using BodyPair = std::pair<BodyKey, BodyKey>;
 
-/// So many pairs of bodies are excluded, and of colliders looked at one by one; more are left to
-/// the callback.
+/// So many pairs of bodies are excluded; where there are more, the callback is asked for all.
 constexpr std::size_t kMostPairs = 100'000;
+constexpr std::size_t kMostWork = 20 * kMostPairs;  // pairs looked at for them
 
 struct Excludes {
   std::set<BodyPair> bodies;  // all of one are apart from all of the other
@@ -174,7 +174,7 @@ class ExcludePass {
       for (const auto& [body_a, of_a] : sets_[a]) {
         for (const auto& [body_b, of_b] : sets_[b]) {
           add(body_a, of_a, body_b, of_b);
-          if (excludes_.bodies.size() > kMostPairs || ++work_ > 20 * kMostPairs) {
+          if (excludes_.bodies.size() > kMostPairs || ++work_ > kMostWork) {
             return std::nullopt;
           }
         }
@@ -207,7 +207,7 @@ class ExcludePass {
       return;
     }
     work_ += of_a.size() * of_b.size();
-    if (work_ <= 20 * kMostPairs) {
+    if (work_ <= kMostWork) {
       for (const Index i : of_a) {
         for (const Index j : of_b) {
           rest_[bodies].emplace(std::min(i, j), std::max(i, j));
@@ -291,7 +291,7 @@ void leave_parents_to_mujoco(Build& build, std::set<BodyPair>& excluded) {
   }
 }
 
-/// What sets keep apart: bodies that are excluded, and what is left to the callback.
+/// What sets keep apart: bodies are excluded, other pairs of colliders go to the callback.
 void add_sets(Build& build, ContactFilter& filter) {
   std::optional<Excludes> excludes = ExcludePass(build).run();
   if (!excludes) {
