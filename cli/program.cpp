@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// The table of verbs, the options that all have, and what is done with a command line: find the
+// verb, let it read its options, run it.
 #include "cli/program.h"
 
 #include <algorithm>

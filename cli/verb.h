@@ -104,6 +104,7 @@ AddVerb add_sim;
 AddVerb add_strip;
 AddVerb add_structure;
 AddVerb add_tree;
+AddVerb add_tune;
 AddVerb add_undo;
 AddVerb add_variant;
 AddVerb add_sweep;

@@ -17,6 +17,10 @@
 #include "tenon/physics/read_physics.h"
 #include "tenon/scene/physics_scene.h"
 
+// Multibody algebra without an engine.
+#include "tenon/dynamics/dynamics.h"
+#include "tenon/dynamics/posture_text.h"
+
 // Simulate.
 #include "tenon/asset/simulating/simulate_asset.h"
 #include "tenon/make_simulation.h"

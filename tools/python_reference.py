@@ -10,7 +10,8 @@ import os
 import textwrap
 
 # Modules of python/tenon_usd in the order of the page; what each is called there.
-MODULES = (("functions", "tenon_usd"), ("world", "tenon_usd"), ("errors", "tenon_usd.errors"),
+MODULES = (("functions", "tenon_usd"), ("world", "tenon_usd"),
+           ("dynamics", "tenon_usd.dynamics"), ("errors", "tenon_usd.errors"),
            ("options", "tenon_usd.options"), ("gym", "tenon_usd.gym"), ("logs", "tenon_usd.logs"),
            ("sweep/__init__", "tenon_usd.sweep"), ("sweep/plan", "tenon_usd.sweep.plan"),
            ("sweep/cases", "tenon_usd.sweep.cases"), ("sweep/chunks", "tenon_usd.sweep.chunks"),

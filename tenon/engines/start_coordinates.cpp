@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tenon/scene/start_coordinate.h"
+
 namespace tenon::engines {
 namespace {
 
@@ -13,10 +15,6 @@ using scene::PhysicsScene;
 
 constexpr double kNoticedGap = 1e-4;   // [m]
 constexpr double kNoticedTurn = 1e-3;  // [rad]
-
-Pose world_frame(const PhysicsScene& scene, const std::optional<Index>& body, const Pose& frame) {
-  return body.has_value() ? scene.bodies[*body].pose * frame : frame;
-}
 
 // Frames that do not meet are brought together by the coordinates of the tree (S-90).
 void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possible,
@@ -38,11 +36,6 @@ void report_gap(const scene::Joint& joint, const Pose& wanted, const Pose& possi
 }
 
 }  // namespace
-
-Pose relative_frames(const PhysicsScene& scene, const scene::Joint& joint) {
-  return inverse(world_frame(scene, joint.body0, joint.frame0)) *
-         world_frame(scene, joint.body1, joint.frame1);
-}
 
 std::vector<double> start_coordinates(const PhysicsScene& scene, const scene::Joint& joint,
                                       const scene::JointDofs& dofs, Diagnostics& diagnostics) {

@@ -12,9 +12,6 @@
 /// Where a run begins: the same for every engine that has joint coordinates.
 namespace tenon::engines {
 
-/// X_J0J1 as the poses of the bodies have it.
-Pose relative_frames(const scene::PhysicsScene& scene, const scene::Joint& joint);
-
 /// Coordinates of a joint of a tree [m or rad], in the order of coordinates_at(): read off the
 /// poses of the bodies, or the authored one of a joint that has one. What they cannot express, so
 /// that the tree pulls the frames together, is reported (S-90, rule joint.frames-apart).

@@ -13,9 +13,13 @@ Pose in_world(const PhysicsScene& scene, const std::optional<Index>& body, const
 
 }  // namespace
 
+Pose relative_frames(const PhysicsScene& scene, const Joint& joint) {
+  return inverse(in_world(scene, joint.body0, joint.frame0)) *
+         in_world(scene, joint.body1, joint.frame1);
+}
+
 double coordinate_from_poses(const PhysicsScene& scene, const Joint& joint) {
-  const Pose relative = inverse(in_world(scene, joint.body0, joint.frame0)) *
-                        in_world(scene, joint.body1, joint.frame1);
+  const Pose relative = relative_frames(scene, joint);
   const auto along = static_cast<std::size_t>(joint.axis);
   if (joint.kind == JointKind::Prismatic) {
     return relative.position[along];

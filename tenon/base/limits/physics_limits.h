@@ -21,5 +21,7 @@ inline constexpr std::size_t kSetsOfCollider = 256;       ///< of filters that o
 inline constexpr std::size_t kCollisionGroups = 4'096;    ///< of a stage
 inline constexpr std::size_t kDisabledPairs = 1'000'000;  ///< of colliders, that are listed
 inline constexpr std::size_t kDisabledPairWork = 50'000'000;  ///< colliders looked at for them
+inline constexpr std::size_t kDenseCoordinates = 1'000;       ///< of bodies that hang together
+inline constexpr std::size_t kDenseWork = 2'000'000'000;      ///< multiplications for inertias
 
 }  // namespace tenon::limits

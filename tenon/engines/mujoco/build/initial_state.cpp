@@ -15,6 +15,7 @@
 #include "tenon/engines/start_coordinates.h"
 #include "tenon/engines/steering.h"
 #include "tenon/scene/motion/fit_velocities.h"
+#include "tenon/scene/start_coordinate.h"
 
 namespace tenon::engines::mujoco {
 namespace {

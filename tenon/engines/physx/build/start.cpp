@@ -8,6 +8,7 @@
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/start_coordinates.h"
 #include "tenon/scene/motion/fit_velocities.h"
+#include "tenon/scene/start_coordinate.h"
 
 namespace tenon::engines::physx {
 namespace {

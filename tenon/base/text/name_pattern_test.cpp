@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tenon/base/text/name_pattern.h"
+
+#include <gtest/gtest.h>
+
+namespace tenon {
+namespace {
+
+bool matches(const std::string& pattern, const char* path) {
+  return NamePattern::parse(pattern)->matches(*Path::parse(path));
+}
+
+TEST(NamePattern, MeansAPathANameOrAnExpressionForTheWhole) {
+  EXPECT_TRUE(matches("/hand/Physics/thumb", "/hand/Physics/thumb"));
+  EXPECT_TRUE(matches("thumb", "/hand/Physics/thumb"));
+  EXPECT_FALSE(matches("thum", "/hand/Physics/thumb"));
+  EXPECT_TRUE(matches("th.*", "/hand/Physics/thumb"));
+  EXPECT_TRUE(matches("index|thumb", "/hand/Physics/thumb"));
+  EXPECT_TRUE(matches("/hand/.*", "/hand/Physics/thumb"));
+  EXPECT_FALSE(matches("hand", "/hand/Physics/thumb"));
+}
+
+TEST(NamePattern, SaysWhatIsWrongWithOne) {
+  for (const char* text : {"", "(", "[a", "(a)\\1"}) {
+    const auto pattern = NamePattern::parse(text);
+    ASSERT_FALSE(pattern) << text;
+    EXPECT_EQ(pattern.error().diagnostic().rule, "name.bad-pattern") << text;
+  }
+  EXPECT_FALSE(NamePattern::parse(std::string(2000, 'a')));
+}
+
+}  // namespace
+}  // namespace tenon
