@@ -37,6 +37,7 @@ constexpr std::array kVerbs{
     Verb{"dump-index", add_dump_index},
     Verb{"explain", add_explain},
     Verb{"help", add_help},
+    Verb{"inertia", add_inertia},
     Verb{"info", add_info},
     Verb{"manual", add_manual},
     Verb{"new", add_new},

@@ -15,6 +15,14 @@ void add_readings(const Command& verb, std::vector<std::string>& assignments) {
       .repeatable();
 }
 
+void add_pose(const Command& verb, std::vector<std::string>& pose) {
+  verb.add_option(
+          "--pose", pose,
+          "JOINT=VALUE,...: joints away from the start; JOINT is a path, a name or a regular "
+          "expression, VALUE in degrees or units of the stage, or with deg, rad, m, cm, mm")
+      .repeatable();
+}
+
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments) {
   physics::Readings readings;
   for (const std::string& text : assignments) {

@@ -45,6 +45,7 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
   SimulateAssetOptions options;
   TENON_TRY(options.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
+  options.pose = arguments.pose;
   options.open = arguments.asset.open_options();
   options.duration = arguments.duration;
   options.time_step = arguments.time_step;
@@ -93,6 +94,7 @@ void SimulateArguments::add_to(const Command& verb) {
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");
   add_readings(verb, readings);
+  add_pose(verb, pose);
   verb.add_option("--set", asset.overrides,
                   "PATH.attr=value, or PATH.rel+=PRIM, for this run only; may be repeated")
       .repeatable();

@@ -18,6 +18,7 @@ namespace tenon::cli {
 struct SimulateArguments {
   AssetArguments asset;
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
+  std::vector<std::string> pose;      ///< --pose JOINT=VALUE,...
   bool uninstance = false;         ///< of bake: instances with bodies inside become ordinary prims
   std::string engine;              ///< empty: what the selected variant names
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5

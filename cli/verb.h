@@ -91,6 +91,7 @@ AddVerb add_dump;
 AddVerb add_dump_index;
 AddVerb add_explain;
 AddVerb add_help;
+AddVerb add_inertia;
 AddVerb add_info;
 AddVerb add_manual;
 AddVerb add_new;

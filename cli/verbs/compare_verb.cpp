@@ -25,6 +25,7 @@ namespace {
 struct CompareArguments {
   AssetArguments asset;
   std::vector<std::string> readings;
+  std::vector<std::string> pose;
   std::vector<std::string> engines;
   std::optional<double> duration;
   double time_step = 0;
@@ -42,6 +43,7 @@ Result<CompareEnginesOptions> options_of(const CompareArguments& arguments, Repo
   CompareEnginesOptions options;
   TENON_TRY(options.first, engine_for("", arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
+  options.pose = arguments.pose;
   options.open = arguments.asset.open_options();
   options.engines = arguments.engines;
   options.duration = arguments.duration;
@@ -155,6 +157,7 @@ void add_run_options(const Command& verb, CompareArguments& options) {
       .file_only()
       .value_name("FILE");
   add_readings(verb, options.readings);
+  add_pose(verb, options.pose);
   verb.add_option("--set", options.asset.overrides,
                   "PATH.attr=value, for this run only; may be repeated")
       .repeatable();

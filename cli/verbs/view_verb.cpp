@@ -33,6 +33,7 @@ namespace {
 struct ViewArguments {
   AssetArguments asset;
   std::vector<std::string> readings;
+  std::vector<std::string> pose;
   std::string engine;
   double time_step = 0;
   std::string bind = "127.0.0.1";
@@ -69,6 +70,7 @@ int run_screenshot(const Globals& globals, const ViewArguments& arguments) {
   }
   options.run.open = arguments.asset.open_options();
   options.run.readings = *std::move(readings);
+  options.run.pose = arguments.pose;
   options.triangles = arguments.triangles;
   SimulateArguments still;
   still.asset = arguments.asset;
@@ -113,6 +115,7 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments, Rep
   live::SessionOptions options;
   TENON_TRY(options.asset.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.asset.readings, chosen_readings(arguments.readings));
+  options.asset.pose = arguments.pose;
   options.asset.path = arguments.asset.asset;
   options.asset.open = arguments.asset.open_options();
   options.asset.time_step = arguments.time_step;
@@ -237,6 +240,7 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
       .value_name("FILE");
   options->picture.add_to(verb);
   add_readings(verb, options->readings);
+  add_pose(verb, options->pose);
   verb.add_option("--set", options->asset.overrides,
                   "PATH.attr=value, for this session only; may be repeated")
       .repeatable();

@@ -14,6 +14,7 @@
 #include "tenon/asset/answers/explained_stage.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
+#include "tenon/dynamics/posture_text.h"
 #include "tenon/make_simulation.h"
 
 namespace tenon::live {
@@ -121,6 +122,7 @@ Result<LiveAsset> open_live_asset(const LiveAssetOptions& options) {
   Diagnostics of_physics;
   asset.explained = std::make_unique<answers::Explained>(
       explained_stage(*asset.stage, options.readings, of_physics));
+  TENON_CHECK(dynamics::start_at(asset.explained->scene, options.pose));
   const auto rotations = scene::wanted_rotations(asset.scene());
   for (std::size_t i = 0; i < asset.scene().joints.size(); ++i) {
     const scene::Joint& joint = asset.scene().joints[i];

@@ -26,8 +26,9 @@ struct LiveAssetOptions {
   std::string path;
   OpenOptions open;
   physics::Readings readings;
-  std::string engine;    ///< empty: what the selected variant names
-  double time_step = 0;  ///< [s]; 0: the asset's, else the engine's
+  std::vector<std::string> pose;  ///< where it starts (dynamics/posture_text.h); empty: as it is
+  std::string engine;             ///< empty: what the selected variant names
+  double time_step = 0;           ///< [s]; 0: the asset's, else the engine's
   /// Makes the picture, a binary glTF with a node for each body in order; empty: there is none.
   Function<Result<std::string>(const stage::Stage& stage, const scene::PhysicsScene& scene)>
       picture;

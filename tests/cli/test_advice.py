@@ -52,6 +52,7 @@ PRINTED_BY = {
     "tenon/bake/record_outputs.cpp": ("sim",),
     "tenon/browser": ("record",),
     "tenon/convert": ("convert",),
+    "tenon/dynamics": ("inertia",),
     "tenon/compose": ("info", "check", "sim", "tree", "cat", "set", "view", "convert"),
     "tenon/stage": ("info", "check", "sim", "tree", "cat", "set", "view", "convert"),
     "tenon/structure/make": ("structure",),

@@ -37,6 +37,7 @@ ROWS = {
     "dump": [],
     "dump-index": [],
     "explain": ["/A"],
+    "inertia": [],
     "info": [],
     "physics": [],
     "record": ["-o", "OUT/r.png"],

@@ -34,6 +34,7 @@ struct SimulationListener {
 struct SimulateAssetOptions {
   OpenOptions open;
   physics::Readings readings;      ///< how the physics is read
+  std::vector<std::string> pose;   ///< where it starts (dynamics/posture_text.h); empty: as it is
   std::string engine;              ///< empty: as choose_engine() decides (engine_choice.h)
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
