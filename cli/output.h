@@ -33,6 +33,7 @@ enum class OutputKind : std::uint8_t {
   NamedLog,     ///< the same, in a format that was asked for by its own name
   State,        ///< of a simulation, to go on from
   Description,  ///< of a robot, for other programs
+  Pairs,        ///< of links that do not collide, for other programs
   Dump,         ///< of a stage
   Sarif,
   Baseline,

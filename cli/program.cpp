@@ -41,6 +41,7 @@ constexpr std::array kVerbs{
     Verb{"info", add_info},
     Verb{"manual", add_manual},
     Verb{"new", add_new},
+    Verb{"pairs", add_pairs},
     Verb{"physics", add_physics},
     Verb{"record", add_record},
     Verb{"remove", add_remove},

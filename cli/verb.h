@@ -95,6 +95,7 @@ AddVerb add_inertia;
 AddVerb add_info;
 AddVerb add_manual;
 AddVerb add_new;
+AddVerb add_pairs;
 AddVerb add_physics;
 AddVerb add_record;
 AddVerb add_remove;

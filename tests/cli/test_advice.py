@@ -45,6 +45,7 @@ PRINTED_BY = {
     "tenon/asset/layers/strip_asset.cpp": ("strip",),
     "tenon/asset/layers/select_variant.cpp": ("variant",),
     "tenon/asset/many_environments": ("bench",),
+    "tenon/asset/pairs": ("pairs",),
     "tenon/asset/simulating/simulate_asset.cpp": RUNS,
     "tenon/asset/updating": ("convert", "structure"),
     "tenon/asset/viewing/record_asset.cpp": ("record",),

@@ -39,6 +39,7 @@ ROWS = {
     "explain": ["/A"],
     "inertia": [],
     "info": [],
+    "pairs": [],
     "physics": [],
     "record": ["-o", "OUT/r.png"],
     "remove": ["/A", "--dry-run"],
