@@ -54,6 +54,7 @@ constexpr std::array kVerbs{
     Verb{"sweep", add_sweep},
     Verb{"test-runner", add_test_runner},
     Verb{"tree", add_tree},
+    Verb{"tune", add_tune},
     Verb{"undo", add_undo},
     Verb{"variant", add_variant},
     Verb{"version", add_version},

@@ -49,8 +49,10 @@ struct OpenTable {
 TomlValue value_of(const toml::key& key, const toml::node& node, std::vector<std::string> path) {
   const toml::source_position at = key.source().begin;
   const std::string* text = node.is_string() ? &node.as_string()->get() : nullptr;
-  return {std::move(path), type_of(node), text == nullptr ? std::string() : *text, at.line,
-          at.column};
+  TomlValue value{std::move(path), type_of(node), text == nullptr ? std::string() : *text, at.line,
+                  at.column};
+  value.number = node.is_number() ? node.value<double>().value_or(0) : 0;
+  return value;
 }
 
 std::vector<TomlValue> values_below(const toml::table& root) {

@@ -18,6 +18,7 @@ struct TomlValue {
   std::string text;               ///< of a string
   std::uint32_t line = 0;
   std::uint32_t column = 0;
+  double number = 0;  ///< of an integer or a float
 };
 
 /// Every value of a text in TOML, in the order of the text; empty tables too. Paths are at most

@@ -62,6 +62,7 @@ READS = {
     "info": [], "physics": [], "record": ["-o", "film.png"], "remove": ["/World"],
     "rename": ["/World", "Other"], "report": ["-o", "page.html"], "set": ["/World.a=1"], "sim": [],
     "strip": ["-o", "stripped.usda"], "structure": ["-o", "structured/"], "tree": [],
+    "tune": [],
     "variant": [], "view": ["--screenshot", "picture.png"], "where": ["/World.a"],
     "zip": ["-o", "packed.usdz"],
 }

@@ -174,6 +174,7 @@ PRINTING = {
     "sweep": ["sweep", "--help"],  # the rest is printed by Python
     "test-runner": ["test-runner", "layer", "scene.usda"],
     "tree": ["tree", "scene.usda"],
+    "tune": ["tune", "scene.usda"],
     "undo": ["undo", "--help"],  # the rest is in test_undo.py
     "variant": ["variant", "scene.usda"],
     "version": ["version"],
@@ -228,6 +229,7 @@ WRITING = {
     "sweep": [],  # Python writes: python/tests/test_sweep_logic.py
     "test-runner": [],
     "tree": [],
+    "tune": [["tune", "scene.usda", "-o", f"OUT.{ending}"] for ending in ("html", "csv", "json")],
     "undo": [],  # in place alone
     "variant": [["variant", "base.usda", "Physics=none", "-o", "OUT.usda"]],
     "version": [],
@@ -251,6 +253,7 @@ EDITS = {
              ["set", "base.usda", "/World/box.physics:density=7"])],
                 ["set", "hand/inspire_hand.usda",
                  "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit=70"])],
+    "tune": [(["tune", "hand/inspire_hand.usda", "--frequency", "9", "--damping-ratio", "1",
                "--save"],
               ["set", "hand/inspire_hand.usda",
                "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit=70"])],

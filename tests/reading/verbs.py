@@ -53,6 +53,7 @@ ROWS = {
     "test-runner layer": [],
     "test-runner value": ["/A.visibility", "default"],
     "tree": [],
+    "tune": [],
     "variant": [],
     "view": ["--for", "0"],
     "view --screenshot": ["OUT/v.png"],

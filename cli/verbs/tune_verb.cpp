@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Without a wish the table of drives is printed; with one the numbers as they would be, and --save
+// writes them as one edit of every form that engines have of them. A test runs with what was wished
+// for, written or not. An interrupt ends a test; what was found until then is printed.
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/edits_report.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/reading_options.h"
+#include "cli/report.h"
+#include "cli/settings.h"
+#include "cli/simulate.h"
+#include "cli/text/tune_text.h"
+#include "cli/verb.h"
+#include "tenon/asset/repeat_edit.h"
+#include "tenon/asset/tuning/tuned_json.h"
+#include "tenon/engines/engines.h"
+
+namespace tenon::cli {
+namespace {
+
+struct TuneArguments {
+  SimulateArguments run;  ///< the asset, readings, engine and time step
+  std::vector<std::string> joints;
+  std::string frequency;
+  std::optional<double> damping_ratio;
+  std::string gains;
+  bool save = false;
+  bool force = false;
+  std::string test;
+  std::vector<std::string> sequence;
+  std::optional<double> period;
+  std::optional<double> amplitude;  ///< [%]
+  std::size_t seed = 1;
+  bool adversarial = false;
+  std::string output;
+};
+
+Error conflict(const std::string& message, const std::string& fix) {
+  return Error(ErrorCode::Invalid, message).with_rule("usage.conflict").with_fix(fix);
+}
+
+Result<void> check_tune_words(const TuneArguments& arguments) {
+  const bool wished = !arguments.frequency.empty() || arguments.damping_ratio.has_value() ||
+                      !arguments.gains.empty();
+  if (arguments.save && !wished) {
+    return conflict("there is nothing to save", "give --frequency and --damping-ratio, or --gains");
+  }
+  const AssetArguments& asset = arguments.run.asset;
+  if (arguments.save && (!asset.overrides.empty() || !asset.mask.empty() || !asset.load.empty() ||
+                         !asset.muted.empty())) {
+    return conflict("--save writes the files of the asset, not a selection of it",
+                    "leave --set, --mask, --load and --mute-layer out");
+  }
+  if (arguments.test.empty() && !arguments.sequence.empty()) {
+    return conflict("--sequence says how a test runs, and there is none", "give --test, too");
+  }
+  return {};
+}
+
+Result<TuneOptions> tune_options(const TuneArguments& arguments, Report& report) {
+  TENON_CHECK(check_tune_words(arguments));
+  TuneOptions options;
+  options.engine = arguments.run.engine;
+  if (options.engine.empty()) {
+    TENON_TRY(options.engine, engine_for("", arguments.run.asset.asset, report));
+  }
+  TENON_TRY(options.readings, chosen_readings(arguments.run.readings));
+  options.open = arguments.run.asset.open_options();
+  options.time_step = arguments.run.time_step;
+  options.joints = arguments.joints;
+  options.gains_file = arguments.gains;
+  options.force = arguments.force;
+  options.sequence = arguments.sequence;
+  options.wish.damping_ratio = arguments.damping_ratio;
+  if (!arguments.frequency.empty()) {
+    TENON_TRY(options.wish.frequency, frequency_named(arguments.frequency));
+  }
+  options.test = tuning::test_named(arguments.test);
+  options.test_options.duration = arguments.run.duration;
+  options.test_options.period = arguments.period;
+  options.test_options.seed = arguments.seed;
+  options.test_options.adversarial = arguments.adversarial;
+  if (arguments.amplitude) {
+    options.test_options.amplitude = *arguments.amplitude / 100;
+  }
+  return options;
+}
+
+int code_of(const TunedAsset& tuned) {
+  using tuning::Verdict;
+  return tuned.interrupted()                                       ? kInterrupted
+         : tuned.has(Verdict::Unstable)                            ? kUnstable
+         : tuned.has(Verdict::Fail) || tuned.has(Verdict::Blocked) ? kNo
+                                                                   : kOk;
+}
+
+Result<void> write_tuned(const TuneArguments& arguments, const TunedAsset& tuned, const Json& json,
+                         Outputs& outputs) {
+  const std::string& path = arguments.output;
+  if (path.empty()) {
+    return {};
+  }
+  outputs.put(path, path.ends_with(".csv")    ? tuned_csv(tuned)
+                    : path.ends_with(".json") ? answers::printed(json)
+                                              : tuned_html(arguments.run.asset.asset, tuned));
+  return outputs.commit();
+}
+
+/// Writes the gains, all as one edit. Reading and writing are repeated where a file changed.
+Result<EditedAsset> save(const TuneArguments& arguments, const TunedAsset& tuned, Report& report,
+                         std::vector<AssetEdit>& edits) {
+  const std::string& asset = arguments.run.asset.asset;
+  EditOptions options;
+  select_physics(arguments.run.asset.physics, options.open);
+  arguments.run.asset.files.apply_to(options.open);
+  return repeat_edit(report.diagnostics, [&]() -> Result<EditedAsset> {
+    TENON_TRY(edits, read_edits(asset, tuned.request, options));
+    TENON_TRY(EditedAsset edited, edit_asset(asset, edits, options, report.diagnostics));
+    if (edited.without_effect.empty()) {
+      TENON_CHECK(write_edits(edited.files, {"tune", asset}));
+    }
+    return edited;
+  });
+}
+
+int save_and_finish(const TuneArguments& arguments, const TunedAsset& tuned, Report& report) {
+  std::vector<AssetEdit> edits;
+  const auto edited = save(arguments, tuned, report, edits);
+  if (!edited) {
+    return report.fail(edited.error());
+  }
+  if (!report.json()) {
+    const int saved = finish_edits(report, edits, *edited, false, EditLines::OfPrims);
+    return saved == kOk ? code_of(tuned) : saved;
+  }
+  const int code = edited->without_effect.empty() ? code_of(tuned) : kNo;
+  return report.finish(code, tuned_json(tuned, edits, *edited));
+}
+
+int run_tune(const Globals& globals, const TuneArguments& arguments) {
+  Report report(globals, "tune", arguments.run.asset.asset);
+  Outputs outputs;
+  if (auto claimed = outputs.claim(OutputKind::Comparison, arguments.output); !claimed) {
+    return report.fail(claimed.error());
+  }
+  auto options = tune_options(arguments, report);
+  if (!options) {
+    return report.fail(options.error());
+  }
+  RunWatch watch(arguments.run, report);
+  options->listener = watch.listener();
+  auto tuned = tune_asset(arguments.run.asset.asset, *options, report.diagnostics);
+  if (!tuned) {
+    return report.fail(tuned.error());
+  }
+  Json json = tuned_json(*tuned);
+  if (auto written = write_tuned(arguments, *tuned, json, outputs); !written) {
+    return report.fail(written.error());
+  }
+  if (!globals.json) {
+    print_text(tune_text(json, arguments.save));
+  }
+  if (arguments.save && !tuned->request.drive.empty() && !tuned->interrupted()) {
+    return save_and_finish(arguments, *tuned, report);
+  }
+  return report.finish(code_of(*tuned), std::move(json));
+}
+
+constexpr const char* kTuneFooter =
+    "A drive with a stiffness is a mass on a spring: its natural frequency is sqrt(stiffness / "
+    "inertia), its damping ratio damping / (2 sqrt(stiffness inertia)). The inertia is what the "
+    "joint moves while all others stand still, with armature, and with what mimics and loops tie "
+    "to "
+    "it; of acceleration drives it is 1. What the joint damps by itself is taken off.\n\n"
+    "A file of gains has a table for each joint or pattern:\n"
+    "  [\"thumb.*\"]\n"
+    "  frequency = 10         Hz, or \"62.8 rad/s\"\n"
+    "  damping_ratio = 1\n"
+    "or stiffness and damping [N m/rad, N m s/rad; N/m, N s/m].\n\n"
+    "Tests: snap (to both limits and home: pass, fail or blocked, and why), step (overshoot, rise, "
+    "settling), sine (lag, gain, errors), stress (random targets, the largest stable ones), steps "
+    "(the step with other time steps). Joints are tested one after the other; each --sequence is a "
+    "group that moves together.\n\n"
+    "Exit codes: 0, 1 a test failed or was blocked, 2 bad input, 3 unstable.\n\n"
+    "Examples:\n"
+    "  tenon tune hand.usda                                 the drives as they are\n"
+    "  tenon tune hand.usda --frequency 10 --damping-ratio 1          what that would change\n"
+    "  tenon tune hand.usda --frequency 10 --damping-ratio 1 --save   and change it\n"
+    "  tenon tune hand.usda --test step --period 0.5\n"
+    "  tenon tune hand.usda --test snap --joints 'thumb.*' -o snap.html";
+
+void add_wish_options(const Command& verb, TuneArguments& options) {
+  verb.add_option("--joints", options.joints,
+                  "Name, path, or regular expression for the whole of either; may be repeated; "
+                  "without it all")
+      .repeatable()
+      .value_name("PATTERN");
+  verb.add_option("--frequency", options.frequency,
+                  "Natural frequency to give them: 10, 10Hz or 62.8rad/s")
+      .value_name("FREQUENCY");
+  verb.add_option("--damping-ratio", options.damping_ratio, {0, 1e6, false, false, ""},
+                  "Damping ratio to give them: 1 is critical")
+      .value_name("RATIO");
+  verb.add_option("--gains", options.gains, "Gains of single joints, TOML")
+      .file_only()
+      .value_name("FILE");
+  verb.add_flag("--save", options.save, "Write what was asked for; without it nothing is written");
+  verb.add_flag("--force", options.force, "Also what is unstable with these time steps");
+}
+
+void add_test_options(const Command& verb, TuneArguments& options) {
+  verb.add_option("--test", options.test, "Run a test of the drives: snap by default, or another")
+      .one_of(tuning::test_names())
+      .value_name("TEST");
+  verb.add_option("--sequence", options.sequence,
+                  "A pattern of joints that move together; groups run in the order of these")
+      .repeatable()
+      .value_name("PATTERN");
+  verb.add_option("--period", options.period, {1e-3, 1e4, false, false, "s"},
+                  "Of a sine; how long a step is watched; without it 2 s")
+      .value_name("SECONDS");
+  verb.add_option("--amplitude", options.amplitude, {1e-6, 100, false, false, "%"},
+                  "Of steps and sines in per cent of the range; without it 10, of the random walk "
+                  "of stress in each step 1")
+      .value_name("PERCENT");
+  verb.add_option("--duration", options.run.duration, {1e-3, 1e5, false, false, "s"},
+                  "Of sine and stress; without it 4 periods, 10 s")
+      .value_name("SECONDS");
+  verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""}, "Of stress")
+      .value_name("NUMBER");
+  verb.add_flag("--adversarial", options.adversarial,
+                "Stress: every 10 steps each joint to a random limit");
+}
+
+}  // namespace
+
+void add_tune(const Command& parent, const Globals& globals, Chosen& chosen) {
+  const Command verb = parent.add_subcommand(
+      "tune", "Gains of drives as frequency and damping ratio: show, set and test them");
+  auto options = std::make_shared<TuneArguments>();
+  options->run.asset.add_to(verb);
+  add_wish_options(verb, *options);
+  std::vector<std::string> names = engines::engine_names();
+  names.emplace_back("all");
+  verb.add_option("--engine", options->run.engine,
+                  "The engine, or all of this build; without it that of tenon.toml, else that of "
+                  "the selected variant")
+      .one_of(names)
+      .value_name("NAME");
+  add_test_options(verb, *options);
+  verb.add_option("--dt", options->run.time_step, {1e-9, 10, false, false, "s"},
+                  "Time step; without it the asset's, else 0.002 s")
+      .value_name("SECONDS");
+  add_readings(verb, options->run.readings);
+  verb.add_option("--set", options->run.asset.overrides,
+                  "PATH.attr=value, for this run only; may be repeated")
+      .repeatable();
+  verb.add_option("-o,--output", options->output,
+                  "Write a report: .html (tables and plots, one file), .json or .csv")
+      .value_name("FILE");
+  verb.footer(kTuneFooter);
+  choose(verb, chosen, [&globals, options] { return run_tune(globals, *options); });
+}
+
+}  // namespace tenon::cli

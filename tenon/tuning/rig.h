@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tenon/tuning/drive_tests.h"
+
+/// Internal to the tests of drives.
+namespace tenon::tuning {
+
+/// A simulation whose position drives are told where to go, and what some of them do.
+class Rig {
+ public:
+  /// `scene` and `rows` must outlive it.
+  static Result<Rig> make(const scene::PhysicsScene& scene, const std::vector<DriveRow>& rows,
+                          const MakeSimulation& make, double time_step);
+
+  /// Back to the start; all position drives hold there. `watched` rows are recorded from now on.
+  Result<void> begin(const std::vector<std::size_t>& watched);
+  Result<void> command(std::size_t row, double position);
+  /// One step; false: the state left the finite numbers, or a watched drive is faster than
+  /// bound_speeds() says.
+  Result<bool> step();
+
+  double time_step() const { return simulation_->time_step(); }
+  double home(std::size_t row) const { return homes_[row]; }
+  double max_force(std::size_t row) const;
+  /// Of the watched one at `place` in the list of begin().
+  const Signal& signal(std::size_t place) const { return signals_[place]; }
+  Signal take_signal(std::size_t place) { return std::move(signals_[place]); }
+  std::size_t sample_count() const { return signals_.empty() ? 0 : signals_.front().size(); }
+  /// No memory for signals: of long runs of which only the speed counts.
+  void record(bool on) { recording_ = on; }
+  void bound_speeds(double most) { fastest_ = most; }
+  double largest_speed(std::size_t place) const { return speeds_[place]; }
+
+ private:
+  Rig(const scene::PhysicsScene& scene, const std::vector<DriveRow>& rows,
+      std::unique_ptr<engines::Simulation> simulation);
+  bool read_back();
+
+  const scene::PhysicsScene* scene_;
+  const std::vector<DriveRow>* rows_;
+  std::unique_ptr<engines::Simulation> simulation_;
+  bool efforts_ = false;
+  bool recording_ = true;
+  double fastest_ = scene::kUnlimited;
+  std::vector<double> homes_;     // (row_count)
+  std::vector<double> commands_;  // (row_count)
+  std::vector<std::size_t> watched_;
+  std::vector<Signal> signals_;  // (watched_count)
+  std::vector<double> speeds_;   // (watched_count)
+};
+
+struct TestInputs {
+  const scene::PhysicsScene& scene;
+  const std::vector<DriveRow>& rows;
+  const MakeSimulation& make;
+  const DriveTestOptions& options;
+};
+
+/// What the tests of one kind share: where they run, how far they are, what stops them.
+class TestRun {
+ public:
+  TestRun(const TestInputs& inputs, double planned) : in(inputs), planned_(planned) {}
+
+  const TestInputs in;
+
+  /// Counts simulated time; false: the test is to end.
+  bool go_on(double seconds);
+  bool interrupted() const { return interrupted_; }
+
+ private:
+  double planned_ = 0;
+  double done_ = 0;
+  double told_ = 0;
+  bool interrupted_ = false;
+};
+
+/// Each of them adds a result for each row of the group. `rig` is of the scene as it is.
+Result<void> run_snap(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
+                      DriveTests& tests);
+Result<void> run_step(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
+                      DriveTests& tests);
+Result<void> run_sine(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
+                      DriveTests& tests);
+Result<void> run_stress(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
+                        DriveTests& tests);
+Result<void> run_steps(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
+                       DriveTests& tests);
+
+/// "at its maxForce of 2 N m for 83 % of the time"; "" where it hardly is.
+std::string saturation_note(const TestRun& run, std::size_t row, double share);
+
+/// The same of its velocity limit: "at its velocity limit of 4.5 rad/s for 12 % of the time".
+std::string speed_note(const TestRun& run, std::size_t row, const Signal& signal);
+
+}  // namespace tenon::tuning
