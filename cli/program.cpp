@@ -33,6 +33,7 @@ constexpr std::array kVerbs{
     Verb{"convert", add_convert},
     Verb{"diff", add_diff},
     Verb{"doctor", add_doctor},
+    Verb{"drives", add_drives},
     Verb{"dump", add_dump},
     Verb{"dump-index", add_dump_index},
     Verb{"explain", add_explain},

@@ -87,6 +87,7 @@ AddVerb add_completion;
 AddVerb add_convert;
 AddVerb add_diff;
 AddVerb add_doctor;
+AddVerb add_drives;
 AddVerb add_dump;
 AddVerb add_dump_index;
 AddVerb add_explain;

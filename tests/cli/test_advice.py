@@ -45,6 +45,7 @@ PRINTED_BY = {
     "tenon/asset/layers/strip_asset.cpp": ("strip",),
     "tenon/asset/layers/select_variant.cpp": ("variant",),
     "tenon/asset/many_environments": ("bench",),
+    "tenon/asset/drives": ("drives",),
     "tenon/asset/pairs": ("pairs",),
     "tenon/asset/simulating/simulate_asset.cpp": RUNS,
     "tenon/asset/tuning": ("tune",),

@@ -58,8 +58,9 @@ FOREIGN = {
 # Verbs that read an asset, with what they want beside it; every verb is in one of the two.
 READS = {
     "add": ["/World/box=cube"], "bake": ["-o", "baked.usda"], "bench": [], "cat": [], "check": [],
-    "compare": [], "diff": ["{file}"], "dump": [], "dump-index": [], "explain": ["/World"],
-    "info": [], "physics": [], "record": ["-o", "film.png"], "remove": ["/World"],
+    "compare": [], "diff": ["{file}"], "dump": [], "drives": [], "dump-index": [],
+    "explain": ["/World"], "inertia": [], "info": [], "pairs": [], "physics": [],
+    "record": ["-o", "film.png"], "remove": ["/World"],
     "rename": ["/World", "Other"], "report": ["-o", "page.html"], "set": ["/World.a=1"], "sim": [],
     "strip": ["-o", "stripped.usda"], "structure": ["-o", "structured/"], "tree": [],
     "tune": [],

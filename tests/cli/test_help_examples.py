@@ -106,6 +106,7 @@ class HelpExamples(unittest.TestCase):
             self.assertEqual(self.run_in(folder, command).returncode, 0, command)
         (folder / "s.usda").unlink()
         (folder / "grasp.csv").write_text("time,/hand/Physics/thumb_joint.target\n0.5,30\n")
+        (folder / "motors.toml").write_text('["thumb.*"]\nmax_effort = "4 N m"\n')
         for name in ("old", "new", "assets"):
             (folder / name).mkdir()
             shutil.copy(folder / "box.usda", folder / name / "hand.usda")

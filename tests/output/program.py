@@ -155,6 +155,7 @@ PRINTING = {
     "dump-index": ["dump-index", "scene.usda"],
     "explain": ["explain", "scene.usda", "/World/box"],
     "help": ["help"],
+    "drives": ["drives", "scene.usda"],
     "inertia": ["inertia", "scene.usda"],
     "info": ["info", "scene.usda"],
     "manual": ["manual"],
@@ -202,6 +203,7 @@ WRITING = {
     "dump-index": [],
     "explain": [],
     "help": [],
+    "drives": [],  # in place alone
     "inertia": [],
     "info": [],
     "manual": [],
@@ -251,6 +253,7 @@ EDITS = {
              ["set", "base.usda", "/World/box.physics:density=7"]),
             (["set", "scene.usda", "/World/box.size=1", "/World/box.physics:rigidBodyEnabled=0"],
              ["set", "base.usda", "/World/box.physics:density=7"])],
+    "drives": [(["drives", "hand/inspire_hand.usda", "--mimic", "25,0.1"],
                 ["set", "hand/inspire_hand.usda",
                  "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit=70"])],
     "tune": [(["tune", "hand/inspire_hand.usda", "--frequency", "9", "--damping-ratio", "1",

@@ -39,6 +39,7 @@ ROWS = {
     "explain": ["/A"],
     "inertia": [],
     "info": [],
+    "drives": [],
     "pairs": [],
     "physics": [],
     "record": ["-o", "OUT/r.png"],
