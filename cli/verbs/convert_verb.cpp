@@ -50,6 +50,7 @@ struct ConvertArguments {
   bool fix_base = false;
   bool float_base = false;
   std::string self_collision;
+  std::string start;
   bool merge_fixed = false;
   bool scene = false;
   bool flat = false;
@@ -66,6 +67,9 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   result.robot.merge_fixed = options.merge_fixed;
   if (!options.self_collision.empty()) {
     result.robot.self_collision = options.self_collision == "on";
+  }
+  if (options.start == "valid") {
+    result.robot.start = convert::StartPose::Valid;
   }
   result.robot.scene = options.scene;
   result.name = options.name;
@@ -314,6 +318,11 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
                   "on or off: whether links of the robot touch each other; if not given, off for "
                   "URDF, and for MJCF what the model says")
       .one_of({"on", "off"});
+  verb.add_option(
+          "--start", options.start,
+          "zero, where the description has it, or valid: joints whose limits exclude 0 start "
+          "inside of them; zero if not given")
+      .one_of({"zero", "valid"});
   verb.add_flag("--merge-fixed", options.merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options.physics,

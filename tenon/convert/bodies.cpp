@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+#include "tenon/convert/prepare_joints.h"
 #include "tenon/math/inertia.h"
 
 namespace tenon::convert {
@@ -144,7 +145,8 @@ void write_body(const Source& source, const LinkPrims& links, Index number, Robo
   const robot::Link& link = model.links[number];
   const std::optional<Index> above = source.tree.joint_to_parent[number];
   const bool relative = above && !(source.options.flat && prim.role != LinkRole::Frame);
-  Pose pose = relative ? model.joints[*above].origin : prim.in_robot;
+  Pose pose =
+      relative ? start_in_parent(model, model.joints[*above], source.options.start) : prim.in_robot;
   if (above && !relative) {
     pose.position = without_sum_errors(pose.position);
   }

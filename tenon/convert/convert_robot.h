@@ -31,6 +31,12 @@ struct Gains {
   double damping = 0;    ///< [N m s/rad or N s/m]
 };
 
+/// Where joints start whose limits exclude 0, the pose that the description has.
+enum class StartPose : std::uint8_t {
+  Zero,   ///< there, outside of their limits
+  Valid,  ///< a twentieth of their range inside of the nearest limit, drives too
+};
+
 struct ConvertOptions {
   bool flat = false;  ///< links side by side below the robot, not nested
   /// The root moves: one called "world" or "base_link", which is held else, and one without mass,
@@ -41,6 +47,7 @@ struct ConvertOptions {
   /// Whether links of the robot touch each other; not given: as the description has it, of URDF
   /// not.
   std::optional<bool> self_collision;
+  StartPose start = StartPose::Zero;
   bool merge_fixed = false;  ///< links on fixed joints become parts of their parents
   SchemaGeneration schema = SchemaGeneration::Current;
   /// What the tutorial of Asset Structure 3.0 has beyond: three operations for each link's pose,

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+#include "tenon/convert/prepare_joints.h"
+
 namespace tenon::convert {
 
 using layer::Value;
@@ -25,7 +27,7 @@ constexpr double kTutorialDampingRatio = 0.005;
 void JointPrinter::print() {
   print_limits();
   print_drive();
-  print_state();
+  print_state(start_of(joint_, nullptr, start_));
   if (current()) {
     print_newton();
     print_physx_axis();
@@ -77,11 +79,12 @@ void JointPrinter::print_drive() {
   builder_.set_value(path_, api, prefix + "type", Value(Token("force")));
 }
 
-void JointPrinter::print_state() {
+void JointPrinter::print_state(double position) {
   const std::string instance = angular() ? "angular" : "linear";
   const Token api("PhysicsJointStateAPI:" + instance);
   builder_.apply(path_, api);
-  builder_.set_number(path_, api, "state:" + instance + ":physics:position", 0);
+  builder_.set_number(path_, api, "state:" + instance + ":physics:position",
+                      position == 0 ? 0 : this->position(position));
   builder_.set_number(path_, api, "state:" + instance + ":physics:velocity", 0);
 }
 
@@ -210,6 +213,9 @@ void JointPrinter::print_mimic(const robot::Joint& leader, Path leader_path,
   const double multiplier = mimic.multiplier * unit;
   const double offset = position(mimic.offset);
   const bool linear = mimic.higher == robot::Mimic{}.higher;
+  if (const double start = start_of(joint_, &leader, start_); start != 0) {
+    print_state(start);
+  }
   if (current()) {
     const Token api("NewtonMimicAPI");
     builder_.apply(path_, api);

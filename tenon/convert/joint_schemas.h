@@ -22,6 +22,7 @@ class JointPrinter {
         joint_(joint),
         axis_(std::move(axis)),
         generation_(options.schema),
+        start_(options.start),
         tutorial_(options.tutorial) {}
 
   /// Limits, drive, state and settings.
@@ -49,7 +50,7 @@ class JointPrinter {
 
   void print_limits();
   void print_drive();
-  void print_state();
+  void print_state(double position);
   void print_newton();
   void print_physx_axis();
   void print_physx_joint();
@@ -62,6 +63,7 @@ class JointPrinter {
   const robot::Joint& joint_;
   std::string axis_;
   SchemaGeneration generation_;
+  StartPose start_;
   bool tutorial_;
 };
 

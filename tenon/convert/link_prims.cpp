@@ -3,6 +3,7 @@
 #include "tenon/convert/link_prims.h"
 
 #include "tenon/base/limits/limits.h"
+#include "tenon/convert/prepare_joints.h"
 
 namespace tenon::convert {
 
@@ -79,7 +80,7 @@ LinkPrim placed_link(const Source& source, Index link, const LinkPrims& links) {
   if (const std::optional<Index> above = source.tree.joint_to_parent[link]) {
     const robot::Joint& joint = source.model.joints[*above];
     const LinkPrim& parent = links[joint.parent];
-    prim.in_robot = parent.in_robot * joint.origin;
+    prim.in_robot = parent.in_robot * start_in_parent(source.model, joint, source.options.start);
     if (prim.role == LinkRole::Frame) {
       prim.host = parent.host;
       prim.in_host = parent.in_host * joint.origin;

@@ -31,6 +31,67 @@ def files_of(folder):
             for p in folder.rglob("*") if p.is_file()}
 
 
+class StartPoses(unittest.TestCase):
+    """Joints whose limits exclude 0: told, and with --start valid they start inside of them."""
+
+    LINK = ('<link name="{0}"><inertial><origin xyz="0.1 0 0"/><mass value="1"/><inertia ixx="0.1" '
+            'iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>')
+    JOINT = ('<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/>'
+             '<origin xyz="0 0 0.5" rpy="0.3 0 0"/><axis xyz="0 1 0"/>'
+             '<limit lower="{4}" upper="{5}" effort="50" velocity="9"/>{6}</joint>')
+    ROBOT = ('<robot name="r">' + "".join(map(LINK.format, "abcd")) +
+             JOINT.format("elbow", "revolute", "a", "b", 0.5, 2.5, "") +
+             JOINT.format("slide", "prismatic", "b", "c", -0.3, -0.1, "") +
+             JOINT.format("follower", "revolute", "c", "d", -3, 3,
+                          '<mimic joint="elbow" multiplier="-1" offset="0.2"/>') + "</robot>")
+    STARTS = {"elbow": 0.6, "slide": -0.11, "follower": -0.4}
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        (self.folder / "r.urdf").write_text(self.ROBOT, encoding="utf-8")
+
+    def rules(self, answer):
+        return [finding["rule"] for finding in answer["diagnostics"]]
+
+    def test_they_start_where_their_limits_are(self):
+        for extra in ([], ["--flat"], ["--names", "tutorial"]):
+            asset = self.folder / ("made" + "".join(extra).replace(" ", ""))
+            code, made = tenon("convert", self.folder / "r.urdf", asset, "--fix-base", *extra,
+                               "--gains", "100,10", "--start", "valid")
+            self.assertEqual(code, 0, made)
+            self.assertNotIn("convert.outside-limits", self.rules(made))
+            _, poses = tenon("inertia", asset / "r.usda")
+            for row in poses["coordinates"]:
+                self.assertAlmostEqual(row["position"],
+                                       self.STARTS[row["joint"].rpartition("/")[2]], places=6)
+            _, findings = tenon("check", asset / "r.usda")
+            told = set(self.rules(findings))
+            self.assertFalse(told & {"joint.outside-limit", "joint.state-differs",
+                                     "joint.frames-apart", "drive.target-outside-limit",
+                                     "mimic.violated"}, told)
+            # Back in URDF it is the robot that it was.
+            code, _ = tenon("convert", asset / "r.usda", self.folder / "back.urdf", "--force")
+            self.assertEqual(code, 0)
+            again = self.folder / "again"
+            tenon("convert", self.folder / "back.urdf", again, "--fix-base")
+            _, joints = tenon("physics", again / "r.usda")
+            limits = {joint["path"].rpartition("/")[2]: (joint["lower"], joint["upper"])
+                      for joint in joints["joints"]}
+            self.assertAlmostEqual(limits["elbow"][0], 0.5, places=6)
+            self.assertAlmostEqual(limits["slide"][1], -0.1, places=6)
+            shutil.rmtree(again)
+
+    def test_without_it_they_are_told(self):
+        code, made = tenon("convert", self.folder / "r.urdf", self.folder / "made")
+        self.assertEqual(code, 0)
+        told = [finding for finding in made["diagnostics"]
+                if finding["rule"] == "convert.outside-limits"]
+        self.assertEqual([finding["severity"] for finding in told], ["warning"] * 2)
+        self.assertIn('"elbow", 28.6479 to 143.239 degrees', told[0]["message"])
+        self.assertIn("--start valid to start it at -0.11 m", told[1]["fix"])
+
+
 class BadMeshes(unittest.TestCase):
     """A mesh with numbers that are none is skipped: no NaN reaches an asset."""
 
