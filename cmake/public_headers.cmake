@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # tenon_public_headers(<out>): the headers that programs outside include, relative to the project:
-# the wiring, every verb of tenon/asset, authoring and saving, and all that these include. Found by
-# their #include lines. What names another library stays inside.
+# the wiring, every verb of tenon/asset, authoring and saving, multibody algebra, and all that these
+# include. Found by their #include lines. What names another library stays inside.
 function(tenon_public_headers out)
   file(GLOB_RECURSE wanted CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
        ${PROJECT_SOURCE_DIR}/tenon/asset/*.h)
   list(APPEND wanted tenon/tenon.h tenon/open_indices.h tenon/stage_sources.h
+       tenon/dynamics/dynamics.h tenon/dynamics/multibody.h tenon/dynamics/posture_text.h
        tenon/edit/stage_editor.h tenon/formats/save_layer.h tenon/guard/worker_place.h)
   set(found)
   foreach(header IN LISTS wanted)

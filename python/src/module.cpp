@@ -6,6 +6,7 @@
 #include "opened_stage.h"
 #include "options.h"
 #include "physics.h"
+#include "scene_dynamics.h"
 #include "values.h"
 #include <nanobind/nanobind.h>
 
@@ -17,6 +18,7 @@ NB_MODULE(_tenon, module) {
   tenon::python::bind_options(module);
   tenon::python::bind_physics(module);
   tenon::python::bind_stage(module);
+  tenon::python::bind_dynamics(module);
   tenon::python::bind_batch(module);
   tenon::python::bind_functions(module);
 }

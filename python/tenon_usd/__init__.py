@@ -56,12 +56,14 @@ from .functions import (
 )
 
 if TYPE_CHECKING:
+    from .dynamics import Dynamics
     from .world import World
 
 __all__ = [
     "AssetPath",
     "CorruptError",
     "Diagnostic",
+    "Dynamics",
     "Error",
     "FileError",
     "InvalidError",
@@ -103,6 +105,10 @@ def __getattr__(name: str) -> Any:
         from .world import World
 
         return World
+    if name == "Dynamics":
+        from .dynamics import Dynamics
+
+        return Dynamics
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -70,9 +70,10 @@ class Command(unittest.TestCase):
 
 def documented():
     """(name, object) of everything public: functions, classes, their methods and properties."""
-    from tenon_usd import errors, functions, log, options, tables, text, world
+    from tenon_usd import dynamics, errors, functions, log, options, tables, text, world
 
-    for module in (tenon, tenon._tenon, errors, functions, log, options, tables, text, world):
+    for module in (tenon, tenon._tenon, dynamics, errors, functions, log, options, tables, text,
+                   world):
         for name, one in vars(module).items():
             own = getattr(one, "__module__", "").startswith("tenon_usd") or (
                 getattr(one, "__module__", "") == "_tenon")
@@ -87,8 +88,9 @@ def documented():
 
 
 class Texts(unittest.TestCase):
-    # What World and the functions stand on; they say what it is.
-    INSIDE = ("tenon_usd._tenon.Batch", "tenon_usd._tenon.OpenArguments")
+    # What World, Dynamics and the functions stand on; they say what it is.
+    INSIDE = ("tenon_usd._tenon.Batch", "tenon_usd._tenon.PosedScene",
+              "tenon_usd._tenon.OpenArguments")
 
     def test_every_public_name_has_a_text(self):
         count, bare = 0, []
@@ -108,17 +110,18 @@ class Texts(unittest.TestCase):
         self.assertGreater(count, 300)
 
     def test_arrays_tell_their_unit_or_what_they_count(self):
+        from tenon_usd.dynamics import Dynamics
         from tenon_usd.world import World
 
         quiet = {"contact_counts"}  # how many
-        for name, one in vars(World).items():
+        for name, one in [*vars(World).items(), *vars(Dynamics).items()]:
             getter = one.fget if isinstance(one, property) else one
             result = str(getattr(getter, "__annotations__", {}).get("return", ""))
             if name.startswith("_") or not NUMBERS.search(result) or name in quiet:
                 continue
             self.assertRegex(inspect.getdoc(one), r"\[[^\]]+\]", name)
             if "Array" in result:
-                self.assertRegex(inspect.getdoc(one), r"\((envs|count)\b", name)
+                self.assertRegex(inspect.getdoc(one), r"\((envs|count|n|bodies|3|6)\b", name)
 
 
 if __name__ == "__main__":

@@ -124,6 +124,41 @@ def faults_of_physics(place, hand):
         "bodies": (13, 0), "colliders": (13, 0), "joints": (13, 0), "mass": (0.54, 1e-6)})
 
 
+PENDULUM = """#usda 1.0
+(
+    defaultPrim = "W"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "W"
+{
+    def Xform "rod" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])
+    {
+        float physics:mass = 2
+        point3f physics:centerOfMass = (0.5, 0, 0)
+        float3 physics:diagonalInertia = (0.125, 0.25, 0.25)
+    }
+    def PhysicsRevoluteJoint "hinge"
+    {
+        rel physics:body1 = </W/rod>
+        uniform token physics:axis = "Y"
+    }
+}
+"""
+
+
+def faults_of_dynamics(place, folder):
+    """A rod of 2 kg, its centre 0.5 m from a horizontal hinge: I + m l^2, m g l cos 60 deg."""
+    asset = os.path.join(folder, "pendulum.usda")
+    with open(asset, "w", encoding="utf-8") as file:
+        file.write(PENDULUM)
+    output = run(os.path.join(place, "dynamics"), asset, "hinge=60deg").stdout
+    yield from faults_of_numbers("dynamics", output, {
+        "mass": (2, 1e-9), "inertia of hinge": (0.25 + 2 * 0.5 ** 2, 1e-8),
+        "weight on hinge": (2 * 9.81 * 0.5 * math.cos(math.radians(60)), 1e-8),
+        "speed by hinge": (0.5, 1e-8)})
+
+
 def faults_of_control_loop(place, hand, prefix):
     """Without load a drive reaches its target, and a torque moves it by torque / stiffness; the
     contacts carry the can, 0.1 kg."""
@@ -173,6 +208,7 @@ def faults_of_examples(place, prefix, folder):
     with tempfile.TemporaryDirectory(dir=folder) as work:
         hand = shutil.copytree(HAND, os.path.join(work, "hand"))
         yield from faults_of_physics(place, hand)
+        yield from faults_of_dynamics(place, work)
         yield from faults_of_control_loop(place, hand, prefix)
         yield from faults_of_environments(place, hand)
         yield from faults_of_checking(place, hand)
