@@ -25,7 +25,7 @@
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/dynamics/constraints.h"
 #include "tenon/dynamics/least_energy.h"
-#include "tenon/scene/joint_freedom.h"
+#include "tenon/scene/disjoint_sets.h"
 
 namespace tenon::dynamics {
 namespace {
@@ -61,6 +61,9 @@ class Dynamics::State {
       places_.push_back({group, coordinates_[group].size()});
       coordinates_[group].push_back(i);
     }
+    dense_.resize(trees_.size());
+    inertias_.resize(places_.size());
+    motions_.resize(places_.size());
   }
 
   const Posture& posture() const { return posture_; }
@@ -158,38 +161,32 @@ class Dynamics::State {
   }
 
   EffectiveInertia effective_inertia(std::size_t coordinate) {
-    const auto [g, column] = places_[coordinate];
-    if (trees_[g].tree().members.size() > limits::kDenseCoordinates) {
-      constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-      return {kUnknown, kUnknown};
+    std::optional<EffectiveInertia>& result = inertias_[coordinate];
+    if (!result) {
+      const auto [g, column] = places_[coordinate];
+      const Dense* dense = dense_of(g);
+      result = dense == nullptr ? EffectiveInertia{kUnknown, kUnknown}
+                                : EffectiveInertia{held(g, column, Roots::Float).inertia,
+                                                   dense->free[to_eigen(column)]};
     }
-    prepare(g);
-    const double held_inertia =
-        held(g, column, Roots::Float,
-             [](const LeastEnergy& energy, const auto&) { return energy.inertia(0); });
-    return {held_inertia, dense_.all->inertia(to_eigen(column))};
+    return *result;
   }
 
   double along_held(std::size_t coordinate, const std::vector<double>& forces) {
     const auto [g, column] = places_[coordinate];
-    if (trees_[g].tree().members.size() > limits::kDenseCoordinates) {
-      return std::numeric_limits<double>::quiet_NaN();
+    if (dense_of(g) == nullptr) {
+      return kUnknown;
     }
-    prepare(g);
-    const std::vector<std::size_t>& coordinates = coordinates_[g];
-    return held(g, column, Roots::Held,
-                [&](const LeastEnergy& energy, const std::vector<Eigen::Index>& moving) {
-                  if (moving.size() == 1) {
-                    return forces[coordinate];
-                  }
-                  const Eigen::VectorXd motion = energy.motion(0);
-                  double sum = 0;
-                  for (std::size_t i = 0; i < moving.size(); ++i) {
-                    sum += motion[to_eigen(i)] *
-                           forces[coordinates[static_cast<std::size_t>(moving[i])]];
-                  }
-                  return sum;
-                });
+    std::optional<HeldMotion>& motion = motions_[coordinate];
+    if (!motion) {
+      motion = held(g, column, Roots::Held);
+    }
+    double sum = motion->speeds.size() == 0 ? kUnknown : 0;
+    for (std::size_t i = 0; i < motion->columns.size(); ++i) {
+      const std::size_t other = coordinates_[g][static_cast<std::size_t>(motion->columns[i])];
+      sum += motion->speeds[to_eigen(i)] * forces[other];
+    }
+    return sum;
   }
 
  private:
@@ -197,12 +194,20 @@ class Dynamics::State {
     std::size_t group = 0;
     std::size_t column = 0;
   };
-  /// Of the group that was asked for last.
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  /// Of one group.
   struct Dense {
-    std::optional<std::size_t> group;
     Eigen::MatrixXd mass;
     Eigen::MatrixXd rows;
-    std::optional<LeastEnergy> all;  // of all columns
+    Eigen::VectorXd free;           // EffectiveInertia::free of each column
+    std::vector<std::size_t> ties;  // columns of one number are tied together
+  };
+  /// The motion of one coordinate while all others are held.
+  struct HeldMotion {
+    double inertia = kUnknown;
+    std::vector<Eigen::Index> columns;
+    Eigen::VectorXd speeds;  // (columns); empty: not known
   };
 
   const scene::PhysicsScene& scene() const { return multibody_.scene(); }
@@ -284,51 +289,64 @@ class Dynamics::State {
     return result;
   }
 
-  void prepare(std::size_t g) {
-    if (dense_.group != g) {
-      dense_ = {g, mass_of(g), constraint_matrix(trees_[g]), std::nullopt};
-      std::vector<Eigen::Index> all(coordinates_[g].size());
+  /// Null where it takes more than the limits allow.
+  const Dense* dense_of(std::size_t g) {
+    const std::size_t size = coordinates_[g].size();
+    if (!dense_[g] && size <= limits::kDenseCoordinates && spend(size)) {
+      Dense& dense = dense_[g].emplace();
+      dense.mass = mass_of(g);
+      dense.rows = constraint_matrix(trees_[g]);
+      dense.ties = ties_of(dense.rows);
+      std::vector<Eigen::Index> all(size);
       std::iota(all.begin(), all.end(), 0);
-      dense_.all.emplace(dense_.mass, dense_.rows, all);
+      const LeastEnergy energy(dense.mass, dense.rows, all);
+      dense.free.resize(to_eigen(size));
+      for (std::size_t c = 0; c < size; ++c) {
+        dense.free[to_eigen(c)] = energy.inertia(to_eigen(c));
+      }
     }
+    return dense_[g] ? &*dense_[g] : nullptr;
   }
 
-  // Columns that loops and mimics tie to one, over others: rows with both are the ties.
-  std::vector<char> tied_to(std::size_t column) const {
-    std::vector<char> tied(static_cast<std::size_t>(dense_.mass.rows()), 0);
-    tied[column] = 1;
-    const double least = 1e-9 * (dense_.rows.size() > 0 ? dense_.rows.cwiseAbs().maxCoeff() : 0);
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (Eigen::Index r = 0; r < dense_.rows.rows(); ++r) {
-        bool touches = false;
-        for (std::size_t c = 0; c < tied.size(); ++c) {
-          touches = touches || (tied[c] != 0 && std::abs(dense_.rows(r, to_eigen(c))) > least);
-        }
-        for (std::size_t c = 0; touches && c < tied.size(); ++c) {
-          if (tied[c] == 0 && std::abs(dense_.rows(r, to_eigen(c))) > least) {
-            tied[c] = 1;
-            grows = true;
-          }
+  /// False where the work for a dense system of so many columns is too much.
+  bool spend(std::size_t columns) {
+    work_ += columns * columns * columns;
+    return work_ <= limits::kDenseWork;
+  }
+
+  // Columns that loops and mimics tie together: those of one row.
+  static std::vector<std::size_t> ties_of(const Eigen::MatrixXd& rows) {
+    scene::DisjointSets sets(static_cast<std::size_t>(rows.cols()));
+    const double least = 1e-9 * (rows.size() > 0 ? rows.cwiseAbs().maxCoeff() : 0);
+    for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+      std::optional<std::size_t> first;
+      for (std::size_t c = 0; c < static_cast<std::size_t>(rows.cols()); ++c) {
+        if (std::abs(rows(r, to_eigen(c))) > least) {
+          sets.join(c, first.value_or(c));
+          first = first.value_or(c);
         }
       }
     }
-    return tied;
+    std::vector<std::size_t> ties;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(rows.cols()); ++c) {
+      ties.push_back(sets.find(c));
+    }
+    return ties;
   }
 
   enum class Roots : std::uint8_t { Float, Held };
 
   // `column` and what moves along with it, first: floating bodies where they float, and what loops
   // and mimics tie to it, those with a drive where `drives_move`.
-  std::vector<Eigen::Index> moving_with(std::size_t g, std::size_t column,
-                                        const std::vector<char>& tied, Roots roots,
+  std::vector<Eigen::Index> moving_with(std::size_t g, std::size_t column, Roots roots,
                                         bool drives_move) const {
+    const std::vector<std::size_t>& ties = dense_[g]->ties;
     std::vector<Eigen::Index> moving{to_eigen(column)};
-    for (std::size_t c = 0; c < tied.size(); ++c) {
+    for (std::size_t c = 0; c < ties.size(); ++c) {
       const Coordinate& coordinate = multibody_.coordinates()[coordinates_[g][c]];
       const bool moves =
           coordinate.joint
-              ? tied[c] != 0 &&
+              ? ties[c] == ties[column] &&
                     (drives_move || !is_driven(scene().joints[*coordinate.joint], coordinate.dof))
               : roots == Roots::Float;
       if (c != column && moves) {
@@ -339,22 +357,24 @@ class Dynamics::State {
   }
 
   // First with every other drive held; where that leaves no motion, with those of the same loop and
-  // mimics let go. `use` gets the motions and their columns. NaN where it takes too much work.
-  template <class Use>
-  double held(std::size_t g, std::size_t column, Roots roots, const Use& use) {
-    const std::vector<char> tied = tied_to(column);
+  // mimics let go.
+  HeldMotion held(std::size_t g, std::size_t column, Roots roots) {
+    const Dense& dense = *dense_[g];
+    HeldMotion result;
     for (const bool drives_move : {false, true}) {
-      const std::vector<Eigen::Index> moving = moving_with(g, column, tied, roots, drives_move);
-      work_ += moving.size() * moving.size() * moving.size();
-      if (work_ > limits::kDenseWork) {
-        return std::numeric_limits<double>::quiet_NaN();
+      std::vector<Eigen::Index> moving = moving_with(g, column, roots, drives_move);
+      if (!spend(moving.size())) {
+        return {};
       }
-      const LeastEnergy energy(dense_.mass, dense_.rows, moving);
-      if (drives_move || std::isfinite(energy.inertia(0))) {
-        return use(energy, moving);
+      const LeastEnergy energy(dense.mass, dense.rows, moving);
+      result.inertia = energy.inertia(0);
+      if (std::isfinite(result.inertia)) {
+        result.speeds = moving.size() == 1 ? Eigen::VectorXd::Ones(1) : energy.motion(0);
+        result.columns = std::move(moving);
+        break;
       }
     }
-    return 0;
+    return result;
   }
 
   const Multibody& multibody_;
@@ -362,8 +382,10 @@ class Dynamics::State {
   std::vector<scene::JointTree> trees_;                // (group_count)
   std::vector<std::vector<std::size_t>> coordinates_;  // of the columns of each group, ascending
   std::vector<Place> places_;                          // (dof_count)
-  Dense dense_;
-  std::size_t work_ = 0;  // multiplications of held
+  std::vector<std::optional<Dense>> dense_;            // (group_count)
+  std::vector<std::optional<EffectiveInertia>> inertias_;  // (dof_count)
+  std::vector<std::optional<HeldMotion>> motions_;         // (dof_count) with roots held
+  std::size_t work_ = 0;                                   // multiplications for all of these
 };
 
 Dynamics::Dynamics(const Multibody& multibody, Posture posture)

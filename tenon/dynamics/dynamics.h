@@ -31,7 +31,8 @@ struct EffectiveInertia {
 };
 
 /// The algebra of a multibody at one posture. Shapes name dof_count, that of
-/// Multibody::coordinates(); velocities and forces are along these.
+/// Multibody::coordinates(); velocities and forces are along these. What was found is kept, so that
+/// one object belongs to one thread.
 class Dynamics {
  public:
   /// `multibody` must outlive it.

@@ -167,6 +167,29 @@ TEST(Dynamics, WhatHasNoMassHasNoInertiaAndWhatCannotMoveHasAll) {
   EXPECT_TRUE(std::isinf(held(scene, 0)));
 }
 
+// Asked over and over, and in whatever order, the answers stay.
+TEST(Dynamics, AskingAgainCostsNothing) {
+  PhysicsScene scene = empty_scene();
+  constexpr Index kCount = 100;
+  for (Index i = 0; i < kCount; ++i) {
+    const Index body = add_body(scene, 1, {{1, 1, 1}}, {});
+    Joint& joint = add_joint(scene, JointKind::Revolute, Axis::Z, std::nullopt, body);
+    if (i > 0) {
+      scene::Mimic mimic;
+      mimic.dof = Dof::RotZ;
+      mimic.leader_dof = Dof::RotZ;
+      joint.mimics.push_back(mimic);
+    }
+  }
+  const Multibody multibody(scene);
+  const Dynamics dynamics(multibody, multibody.start());
+  const std::vector<double> forces(kCount, 1.0);
+  for (std::size_t i = 0; i < 40 * kCount; ++i) {
+    ASSERT_NEAR(dynamics.effective_inertia(i % kCount).held, kCount, 1e-9);
+    ASSERT_NEAR(dynamics.along_held(i % kCount, forces), kCount, 1e-9);
+  }
+}
+
 // A parallelogram: the coupler moves on a circle without turning, so it counts as a point mass.
 TEST(Dynamics, AParallelogramMovesAsAWhole) {
   PhysicsScene scene = empty_scene();
