@@ -10,10 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "tenon/base/limits/reading_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/angle.h"
-#include "tenon/settings/toml_table.h"
+#include "tenon/settings/toml_file.h"
 
 namespace tenon {
 namespace {
@@ -202,19 +201,10 @@ Result<void> add_spec(const settings::TomlValue& value, std::vector<MotorSpec>& 
 
 Result<std::vector<MotorSpec>> read_motor_specs(const std::string& file,
                                                 const bytes::Files& files) {
-  bytes::FileRules rules;
-  rules.max_bytes = limits::kSettingsBytes;
-  TENON_TRY(const auto bytes, files->open(file, rules));
-  auto values = settings::toml_values(bytes->text());
-  if (!values) {
-    return std::move(values).error().in_file(file);
-  }
   std::vector<MotorSpec> specs;
-  for (const settings::TomlValue& value : *values) {
-    if (auto added = add_spec(value, specs); !added) {
-      return std::move(added).error().in_file(file);
-    }
-  }
+  TENON_CHECK(settings::each_toml_value(file, files, [&](const settings::TomlValue& value) {
+    return add_spec(value, specs);
+  }));
   return specs;
 }
 

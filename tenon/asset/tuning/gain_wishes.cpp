@@ -7,10 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "tenon/base/limits/reading_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/angle.h"
-#include "tenon/settings/toml_table.h"
+#include "tenon/settings/toml_file.h"
 
 namespace tenon {
 namespace {
@@ -122,19 +121,10 @@ Result<double> frequency_named(const std::string& text) {
 
 Result<std::vector<PatternWish>> read_gain_file(const std::string& file,
                                                 const bytes::Files& files) {
-  bytes::FileRules rules;
-  rules.max_bytes = limits::kSettingsBytes;
-  TENON_TRY(const auto bytes, files->open(file, rules));
-  auto values = settings::toml_values(bytes->text());
-  if (!values) {
-    return std::move(values).error().in_file(file);
-  }
   std::vector<PatternWish> wishes;
-  for (const settings::TomlValue& value : *values) {
-    if (auto added = add_wish(value, wishes); !added) {
-      return std::move(added).error().in_file(file);
-    }
-  }
+  TENON_CHECK(settings::each_toml_value(file, files, [&](const settings::TomlValue& value) {
+    return add_wish(value, wishes);
+  }));
   return wishes;
 }
 
