@@ -202,9 +202,8 @@ Result<void> add_spec(const settings::TomlValue& value, std::vector<MotorSpec>& 
 Result<std::vector<MotorSpec>> read_motor_specs(const std::string& file,
                                                 const bytes::Files& files) {
   std::vector<MotorSpec> specs;
-  TENON_CHECK(settings::each_toml_value(file, files, [&](const settings::TomlValue& value) {
-    return add_spec(value, specs);
-  }));
+  TENON_CHECK(settings::each_toml_value(
+      file, files, [&](const settings::TomlValue& value) { return add_spec(value, specs); }));
   return specs;
 }
 

@@ -122,9 +122,8 @@ Result<double> frequency_named(const std::string& text) {
 Result<std::vector<PatternWish>> read_gain_file(const std::string& file,
                                                 const bytes::Files& files) {
   std::vector<PatternWish> wishes;
-  TENON_CHECK(settings::each_toml_value(file, files, [&](const settings::TomlValue& value) {
-    return add_wish(value, wishes);
-  }));
+  TENON_CHECK(settings::each_toml_value(
+      file, files, [&](const settings::TomlValue& value) { return add_wish(value, wishes); }));
   return wishes;
 }
 
