@@ -9,7 +9,7 @@ of that frequency and damping ratio does, on every engine, for every kind of joi
     test_responses.py TENON table     prints the table
 
 Overshoot and rise time (10 to 90 %) are held to 5 % of the form, an overshoot also to half a per
-cent of the step where 5 % of it is less. Engines take forces at the begin or the end of a step, an
+cent of the step where 5 % of it is less. Engines take forces at the beginning or end of a step, an
 error of first order in omega dt; where 1/1000 s is too coarse for that, the row counts at 1/4000 s
 and says so.
 """
