@@ -72,6 +72,13 @@ def judgements_of_engines():
                                     "build/release/bin/tenon", "docs/robots-hold.md",
                                     "tests/engines_beside/robots_hold_misses.txt"],
                     "release", ["tenon_cli", "tenon_worker"])
+    # Tuned drives beside the closed form, and multibody algebra beside MuJoCo, in full.
+    yield Judgement("tuned_responses", ["{python}", "-B", "tests/tuning/test_responses.py",
+                                        "build/release/bin/tenon", "all"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("mass_matrices", ["{python}", "-B", "tests/dynamics/mujoco_matrices.py", ".",
+                                      "build/release/bin/tenon", "1000"],
+                    "release", ["tenon_cli", "tenon_worker"])
 
 
 def judgements_of_pages_and_python():
