@@ -150,6 +150,13 @@ std::string steps_text(const Json& engine, const JointNames& names) {
   return rows.size() > 1 ? text_table(rows) : "";
 }
 
+std::string nothing_to_test(const Json& engine) {
+  const std::string variant =
+      engine["variant"].is_null() ? "" : engine["variant"].get<std::string>();
+  return "nothing to test: no drive with stiffness or damping is left" +
+         (variant.empty() ? "" : " under the variant " + variant + " of \"Physics\"") + "\n";
+}
+
 std::string results_text(const Json& engine, const JointNames& names) {
   std::string text = "\n" + engine["test"].get<std::string>() + " on " +
                      engine["engine"].get<std::string>() + ", steps of " +
@@ -161,7 +168,7 @@ std::string results_text(const Json& engine, const JointNames& names) {
     rows.push_back({names.of(result), result["verdict"].get<std::string>(), measured(result),
                     result_reasons(result)});
   }
-  return text + "\n" + (rows.empty() ? "nothing to test\n" : text_table(rows)) +
+  return text + "\n" + (rows.empty() ? nothing_to_test(engine) : text_table(rows)) +
          steps_text(engine, names);
 }
 

@@ -259,7 +259,7 @@ void add_advice(const DriveRow& row, DriveTestResult& result) {
   if (result.verdict != Verdict::Pass) {
     return;
   }
-  if (slowest > kSlow && row.response && row.response->ratio > 1) {
+  if (slowest > kSlow && row.response && regime_of(row.response->ratio) == Regime::Overdamped) {
     result.reasons.push_back("slow: overdamped, damping ratio " +
                              rounded_text(row.response->ratio, 3));
   }
