@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Unlike texts of poses (tenon/dynamics/posture_text.h), which may move many joints by one name, a
-// name means exactly one here: what is asked for by it is one number.
+// name means exactly one here, since each gives one number.
 #include "named_coordinates.h"
 
 #include <algorithm>

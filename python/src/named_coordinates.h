@@ -14,7 +14,7 @@
 namespace tenon::python {
 
 /// The coordinate of a joint, a path or a name, in Multibody::coordinates(). `dof` is "rotX" and
-/// the like; empty: what stands behind a colon in `joint`, or the only one that the joint has.
+/// the like; empty: what follows a colon in `joint`, or the only one that the joint has.
 /// Errors (rules dynamics.no-joint, dynamics.no-dof): NotFound, Invalid for a name of several.
 Result<std::size_t> coordinate_named(const dynamics::Multibody& multibody, const std::string& joint,
                                      const std::string& dof);

@@ -3,9 +3,8 @@
 //
 // What tenon_usd/dynamics.py stands on: a scene at one posture, and its numbers as arrays of
 // doubles. Nothing of Python changes a scene, so that calls need no lock, and each lets other
-// threads of Python run. Dynamics keeps what it computed for the last group of bodies, and counts
-// its work: what asks it for effective inertias makes one of its own, so that neither threads nor
-// earlier calls change an answer.
+// threads of Python run. Dynamics keeps what it finds and so belongs to one thread: what asks it
+// for effective inertias makes one of its own.
 #include "scene_dynamics.h"
 
 #include <algorithm>

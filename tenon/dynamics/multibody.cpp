@@ -48,6 +48,12 @@ bool is_driven(const Joint& joint, scene::Dof dof) {
                      [&](const scene::Drive& drive) { return drive.dof == dof; });
 }
 
+const scene::Mimic* mimic_of(const Joint& joint, scene::Dof dof) {
+  const auto found = std::find_if(joint.mimics.begin(), joint.mimics.end(),
+                                  [&](const scene::Mimic& mimic) { return mimic.dof == dof; });
+  return found == joint.mimics.end() ? nullptr : &*found;
+}
+
 Multibody::Multibody(const scene::PhysicsScene& scene)
     : scene_(&scene), forest_(joint_forest(scene)) {
   const std::vector<scene::FreeRotations> wanted = wanted_rotations(scene);

@@ -29,6 +29,8 @@ struct Coordinate {
 
 /// A drive of the joint acts on this degree of freedom.
 bool is_driven(const scene::Joint& joint, scene::Dof dof);
+/// What makes this degree of freedom follow another; null: nothing does.
+const scene::Mimic* mimic_of(const scene::Joint& joint, scene::Dof dof);
 
 /// Where the joints and bodies of a scene are.
 struct Posture {

@@ -134,8 +134,7 @@ Result<void> move(const Multibody& multibody, const Wish& wish,
       continue;
     }
     const scene::Dof dof = multibody.dofs()[j].free[*part].dof;
-    const bool follows = std::any_of(joint.mimics.begin(), joint.mimics.end(),
-                                     [&](const scene::Mimic& mimic) { return mimic.dof == dof; });
+    const bool follows = mimic_of(joint, dof) != nullptr;
     if (follows || !multibody.coordinate_of(j, dof)) {
       if (joint.path.str() == wish.joint || joint.path.name().str() == wish.joint) {
         return bad_pose(ErrorCode::Invalid,

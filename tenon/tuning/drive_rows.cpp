@@ -15,15 +15,6 @@ namespace {
 
 using scene::Joint;
 
-const scene::Mimic* mimic_of(const Joint& joint, scene::Dof dof) {
-  for (const scene::Mimic& mimic : joint.mimics) {
-    if (mimic.dof == dof) {
-      return &mimic;
-    }
-  }
-  return nullptr;
-}
-
 class Rows {
  public:
   Rows(const dynamics::Multibody& multibody, const dynamics::Dynamics& dynamics)
@@ -115,7 +106,7 @@ class Rows {
     if (!joint.enabled) {
       return "the joint is disabled";
     }
-    if (const scene::Mimic* mimic = mimic_of(joint, drive.dof)) {
+    if (const scene::Mimic* mimic = dynamics::mimic_of(joint, drive.dof)) {
       return "it follows " + scene_.joints[mimic->leader].path.name().str() + " (mimic)";
     }
     if (scene::is_locked(joint, drive.dof)) {
@@ -144,7 +135,7 @@ class Rows {
     const auto& free = multibody_.dofs()[j].free;
     row.dof = free.empty() ? joint.dof() : free.front().dof;
     find_load(joint, row);
-    const scene::Mimic* mimic = mimic_of(joint, row.dof);
+    const scene::Mimic* mimic = dynamics::mimic_of(joint, row.dof);
     row.why_not = mimic != nullptr
                       ? "it follows " + scene_.joints[mimic->leader].path.name().str() + " (mimic)"
                       : "no drive";

@@ -12,8 +12,8 @@
 #include "tenon/asset/drives/limit_edits.h"
 #include "tenon/asset/drives/motor_specs.h"
 #include "tenon/asset/drives/spec_limits.h"
-#include "tenon/asset/pairs/drawn_postures.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/dynamics/dynamics.h"
 #include "tenon/physics/read_physics.h"
 
@@ -34,11 +34,6 @@ struct Demands {
   std::vector<DrivePlace> places;  // (drive_count)
 };
 
-bool follows(const scene::Joint& joint, scene::Dof dof) {
-  return std::any_of(joint.mimics.begin(), joint.mimics.end(),
-                     [&](const scene::Mimic& mimic) { return mimic.dof == dof; });
-}
-
 Demands demands_of(const dynamics::Multibody& multibody) {
   Demands demands;
   const scene::PhysicsScene& scene = multibody.scene();
@@ -51,7 +46,7 @@ Demands demands_of(const dynamics::Multibody& multibody) {
     const auto drive =
         std::find_if(joint.drives.begin(), joint.drives.end(),
                      [&](const scene::Drive& one) { return one.dof == coordinate.dof; });
-    if (drive == joint.drives.end() || follows(joint, coordinate.dof)) {
+    if (drive == joint.drives.end() || dynamics::mimic_of(joint, coordinate.dof) != nullptr) {
       continue;
     }
     DriveDemand demand;
@@ -176,7 +171,7 @@ Result<DrivesOfAsset> drives_of_asset(const std::string& path, const DrivesOptio
   const dynamics::Multibody multibody(*result.scene);
   Demands demands = demands_of(multibody);
   if (!demands.drives.empty()) {
-    const DrawnPostures postures(multibody);
+    const dynamics::DrawnPostures postures(multibody);
     look_at(multibody, postures.start(), demands);
     for (std::size_t i = 0; i < options.samples; ++i) {
       look_at(multibody, postures.draw(options.seed, i), demands);

@@ -16,10 +16,10 @@
 #include <string>
 #include <utility>
 
-#include "tenon/asset/pairs/drawn_postures.h"
 #include "tenon/asset/pairs/pair_search.h"
 #include "tenon/base/limits/pair_limits.h"
 #include "tenon/base/limits/physics_limits.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/scene/filter_sets.h"
 
 namespace tenon {
@@ -288,7 +288,7 @@ std::vector<JointCoordinates> posture_joints(
     const PhysicsScene& scene, std::uint64_t seed,
     const std::vector<std::optional<std::uint64_t>>& postures) {
   const dynamics::Multibody multibody(scene);
-  const DrawnPostures drawn(multibody);
+  const dynamics::DrawnPostures drawn(multibody);
   std::vector<JointCoordinates> result;
   for (const std::optional<std::uint64_t>& posture : postures) {
     result.push_back(posture ? drawn.draw(seed, *posture).joints : drawn.start().joints);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tenon/asset/pairs/drawn_postures.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/engines/test_scene.h"
 #include "tenon/scene/filter_sets.h"
 
@@ -50,7 +50,7 @@ BodyPairs pairs_of(const scene::PhysicsScene& scene, std::size_t samples, std::s
 TEST(DrawnPostures, NumbersOfASeedAreTheSameAlways) {
   const TestScene scene = arm_and_post(-1, 2, 1);
   const dynamics::Multibody multibody(scene);
-  const DrawnPostures drawn(multibody);
+  const dynamics::DrawnPostures drawn(multibody);
   EXPECT_EQ(drawn.coordinate_count(), 1u);
   EXPECT_EQ(drawn.draw(0, 0).joints, drawn.draw(0, 0).joints);
   EXPECT_NE(drawn.draw(0, 0).joints, drawn.draw(0, 1).joints);
@@ -71,7 +71,7 @@ TEST(DrawnPostures, RotationsWithoutLimitsGoAroundAndSlidesStay) {
   const dynamics::Multibody around(scene);
   double least = 0;
   double most = 0;
-  const DrawnPostures drawn(around);
+  const dynamics::DrawnPostures drawn(around);
   for (std::uint64_t i = 0; i < 1000; ++i) {
     const double angle = drawn.draw(0, i).joints[0][0];
     least = std::min(least, angle);
@@ -83,7 +83,7 @@ TEST(DrawnPostures, RotationsWithoutLimitsGoAroundAndSlidesStay) {
   EXPECT_LE(most, M_PI);
   scene.joints[0].kind = JointKind::Prismatic;
   const dynamics::Multibody slide(scene);
-  EXPECT_EQ(DrawnPostures(slide).coordinate_count(), 0u);
+  EXPECT_EQ(dynamics::DrawnPostures(slide).coordinate_count(), 0u);
 }
 
 TEST(DrawnPostures, BallsStayInTheirCone) {
@@ -93,7 +93,7 @@ TEST(DrawnPostures, BallsStayInTheirCone) {
   scene.joints[0].cone_angle0 = 0.4;
   scene.joints[0].cone_angle1 = 0.4;
   const dynamics::Multibody multibody(scene);
-  const DrawnPostures drawn(multibody);
+  const dynamics::DrawnPostures drawn(multibody);
   EXPECT_EQ(drawn.coordinate_count(), 3u);
   double widest = 0;
   for (std::uint64_t i = 0; i < 1000; ++i) {
@@ -118,7 +118,7 @@ TEST(DrawnPostures, FollowersAreNotDrawn) {
   mimic.multiplier = 2;
   bend.mimics.push_back(mimic);
   const dynamics::Multibody multibody(scene);
-  const DrawnPostures drawn(multibody);
+  const dynamics::DrawnPostures drawn(multibody);
   EXPECT_EQ(drawn.coordinate_count(), 1u);
   const dynamics::Posture posture = drawn.draw(0, 3);
   EXPECT_NEAR(posture.joints[1][0], 2 * posture.joints[0][0], 1e-12);

@@ -15,8 +15,8 @@
 #include "tenon/base/limits/pair_limits.h"
 
 #if TENON_WITH_MUJOCO
-#include "tenon/asset/pairs/drawn_postures.h"
 #include "tenon/base/parallel.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/engines/mujoco/overlap/penetrations.h"
 #endif
 
@@ -120,7 +120,7 @@ class Draw {
   Draw(const dynamics::Multibody& multibody, const BodyPairsOptions& options)
       : multibody_(multibody), options_(options), drawn_(multibody) {}
 
-  const DrawnPostures& postures() const { return drawn_; }
+  const dynamics::DrawnPostures& postures() const { return drawn_; }
 
   /// `is_own`: on the thread that waits for the others, and may report.
   void run(bool is_own, Stretch& stretch) {
@@ -142,7 +142,7 @@ class Draw {
  private:
   const dynamics::Multibody& multibody_;
   const BodyPairsOptions& options_;
-  DrawnPostures drawn_;
+  dynamics::DrawnPostures drawn_;
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> failed_{false};
 };

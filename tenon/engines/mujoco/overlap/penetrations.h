@@ -28,7 +28,7 @@ enum class StaticColliders : bool { Left, Included };
 /// scene is looked at: filters, joints, articulations and kinematic bodies keep none apart. Margins
 /// are zero. Disabled colliders and triggers take part in nothing, nor does a plane on a body that
 /// moves. As in runs, a triangle mesh on a body that moves is its convex hull; on one that is
-/// kinematic or static it is its triangles. What tracks move stands where it starts.
+/// kinematic or static it is its triangles. Colliders that tracks move stay at their start.
 ///
 /// One object belongs to one thread.
 class Penetrations {

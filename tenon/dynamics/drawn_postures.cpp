@@ -5,7 +5,7 @@
 // take theirs from it in the order of the scene. So postures can be drawn in any order and on any
 // thread. Numbers are scaled by hand, as the distributions of the library differ between machines.
 // Closing loops moves joints without a look at their limits, which is made up for afterwards.
-#include "tenon/asset/pairs/drawn_postures.h"
+#include "tenon/dynamics/drawn_postures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include "tenon/scene/joint_freedom.h"
 
-namespace tenon {
+namespace tenon::dynamics {
 namespace {
 
 using scene::Index;
@@ -61,11 +61,6 @@ std::optional<std::pair<double, double>> range_of(const scene::FreeDof& dof) {
   return has_upper ? std::pair(dof.upper - 2 * M_PI, dof.upper) : std::pair(-M_PI, M_PI);
 }
 
-bool follows(const Joint& joint, scene::Dof dof) {
-  return std::any_of(joint.mimics.begin(), joint.mimics.end(),
-                     [&](const scene::Mimic& mimic) { return mimic.dof == dof; });
-}
-
 /// A tilt of the axis by up to `cone`, after a twist about it, as a rotation vector.
 Vec3d ball_turn(scene::Axis axis, double cone, Drawing& drawing) {
   const auto along = static_cast<std::size_t>(axis);
@@ -95,7 +90,7 @@ bool is_within(const scene::FreeDof& dof, double value) {
 
 }  // namespace
 
-DrawnPostures::DrawnPostures(const dynamics::Multibody& multibody)
+DrawnPostures::DrawnPostures(const Multibody& multibody)
     : multibody_(&multibody), start_(multibody.start()) {
   for (Index j = 0; j < multibody.scene().joints.size(); ++j) {
     if (multibody.forest().joints[j] == scene::ForestRole::Tree) {
@@ -109,7 +104,7 @@ void DrawnPostures::add_joint(Index index) {
   const scene::JointDofs& dofs = multibody_->dofs()[index];
   for (std::size_t i = 0; i < dofs.free.size(); ++i) {
     const auto range = range_of(dofs.free[i]);
-    if (range && !follows(joint, dofs.free[i].dof)) {
+    if (range && mimic_of(joint, dofs.free[i].dof) == nullptr) {
       ranges_.push_back({index, i, range->first, range->second});
     }
   }
@@ -122,8 +117,7 @@ void DrawnPostures::add_joint(Index index) {
 std::size_t DrawnPostures::coordinate_count() const { return ranges_.size() + 3 * balls_.size(); }
 
 /// Of a joint of a tree as they are, of another as the bodies have it.
-std::vector<double> DrawnPostures::coordinates_of(const dynamics::Posture& posture,
-                                                  Index index) const {
+std::vector<double> DrawnPostures::coordinates_of(const Posture& posture, Index index) const {
   if (multibody_->forest().joints[index] == scene::ForestRole::Tree) {
     return posture.joints[index];
   }
@@ -134,7 +128,7 @@ std::vector<double> DrawnPostures::coordinates_of(const dynamics::Posture& postu
                                inverse(side0 * joint.frame0) * (side1 * joint.frame1));
 }
 
-bool DrawnPostures::is_possible(const dynamics::Posture& posture) const {
+bool DrawnPostures::is_possible(const Posture& posture) const {
   const scene::JointForest& forest = multibody_->forest();
   if (forest.loop_joints.empty()) {
     return true;
@@ -157,7 +151,7 @@ bool DrawnPostures::is_possible(const dynamics::Posture& posture) const {
   return true;
 }
 
-dynamics::Posture DrawnPostures::draw(std::uint64_t seed, std::uint64_t number) const {
+Posture DrawnPostures::draw(std::uint64_t seed, std::uint64_t number) const {
   Drawing drawing(seed, number);
   std::vector<std::vector<double>> joints = start_.joints;
   for (const Range& range : ranges_) {
@@ -171,4 +165,4 @@ dynamics::Posture DrawnPostures::draw(std::uint64_t seed, std::uint64_t number) 
   return multibody_->moved(start_, std::move(joints));
 }
 
-}  // namespace tenon
+}  // namespace tenon::dynamics

@@ -8,7 +8,7 @@
 
 #include "tenon/dynamics/multibody.h"
 
-namespace tenon {
+namespace tenon::dynamics {
 
 /// Postures of the trees of a scene, drawn within the limits of its joints. Each number of a seed
 /// is a posture of its own, whichever others are drawn, on every machine.
@@ -20,16 +20,16 @@ namespace tenon {
 class DrawnPostures {
  public:
   /// `multibody` must outlive it.
-  explicit DrawnPostures(const dynamics::Multibody& multibody);
+  explicit DrawnPostures(const Multibody& multibody);
 
-  const dynamics::Posture& start() const { return start_; }
+  const Posture& start() const { return start_; }
   /// Coordinates that are drawn, a ball's three among them.
   std::size_t coordinate_count() const;
   /// Loops are closed as far as they can be (Multibody::loop_gap).
-  dynamics::Posture draw(std::uint64_t seed, std::uint64_t number) const;
+  Posture draw(std::uint64_t seed, std::uint64_t number) const;
   /// Loops are closed, within the limits of all joints: what closes them moves joints without a
   /// look at these.
-  bool is_possible(const dynamics::Posture& posture) const;
+  bool is_possible(const Posture& posture) const;
 
  private:
   struct Range {
@@ -45,12 +45,12 @@ class DrawnPostures {
     double cone = 0;  // [rad]
   };
   void add_joint(scene::Index joint);
-  std::vector<double> coordinates_of(const dynamics::Posture& posture, scene::Index joint) const;
+  std::vector<double> coordinates_of(const Posture& posture, scene::Index joint) const;
 
-  const dynamics::Multibody* multibody_;
-  dynamics::Posture start_;
+  const Multibody* multibody_;
+  Posture start_;
   std::vector<Range> ranges_;
   std::vector<Ball> balls_;
 };
 
-}  // namespace tenon
+}  // namespace tenon::dynamics
