@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "tenon/base/fill_fields.h"
 #include "tenon/base/wire.h"
@@ -85,50 +87,60 @@ struct Leaf {
   Role role = Role::Physics;
 };
 
-/// Changes the leaf with a number.
+/// Changes the leaf with a number. Of a list the last item has leaves: every field has one, and the
+/// time of a test does not double with each list in a list.
 class ChangeLeaf {
  public:
   explicit ChangeLeaf(int at) : at_(at) {}
 
-  int seen() const { return seen_; }
+  /// False when there are no more than `at` leaves.
+  bool changed() const { return seen_ > at_; }
   const Leaf& leaf() const { return leaf_; }
 
   template <class T>
-  void walk(T& of, const Leaf& around) {
+  void walk(T& of, Role around) {
     each_field(of, [&](const FieldInfo& info, auto& value) {
-      Leaf inner{around.name + "." + std::string(info.name), around.role};
-      if (inner.role != Role::Provenance) {
-        inner.role = info.role;
+      if (changed()) {
+        return;
       }
-      visit(value, inner);
+      names_.push_back(info.name);
+      visit(value, around == Role::Provenance ? around : info.role);
+      names_.pop_back();
     });
   }
 
  private:
   template <class T>
-  void visit(T& value, const Leaf& place) {
+  void visit(T& value, Role role) {
+    if (changed()) {
+      return;
+    }
     if constexpr (HasTable<T>) {
-      walk(value, place);
+      walk(value, role);
     } else if constexpr (wire::kIsOptional<T>) {
-      if (is_it(place)) {
+      if (is_it(role)) {
         value.reset();
       } else if (value) {
-        visit(*value, place);
+        visit(*value, role);
       }
     } else if constexpr (wire::kIsPair<T>) {
-      visit(value.first, place);
-      visit(value.second, place);
-    } else if constexpr (wire::kIsVector<T> || wire::kIsArray<T>) {
+      visit(value.first, role);
+      visit(value.second, role);
+    } else if constexpr (wire::kIsVector<T>) {
+      if (!value.empty()) {
+        visit(value.back(), role);
+      }
+    } else if constexpr (wire::kIsArray<T>) {
       for (auto& item : value) {
-        visit(item, place);
+        visit(item, role);
       }
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> ||
                          std::is_same_v<T, std::string> || std::is_same_v<T, Path>) {
-      if (is_it(place)) {
+      if (is_it(role)) {
         change(value);
       }
     } else {
-      wire::with_fields(value, [&](auto&... field) { (visit(field, place), ...); });
+      wire::with_fields(value, [&](auto&... field) { (visit(field, role), ...); });
     }
   }
 
@@ -149,28 +161,33 @@ class ChangeLeaf {
     }
   }
 
-  bool is_it(const Leaf& place) {
+  bool is_it(Role role) {
     if (seen_++ != at_) {
       return false;
     }
-    leaf_ = place;
+    leaf_.role = role;
+    for (const std::string_view name : names_) {
+      (leaf_.name += '.') += name;
+    }
     return true;
   }
 
   int at_;
   int seen_ = 0;
+  std::vector<std::string_view> names_;
   Leaf leaf_;
 };
 
 /// Calls `visit(changed scene, leaf)` for each leaf of `scene` in turn.
 template <class Visit>
 void each_changed_leaf(const PhysicsScene& scene, Visit&& visit) {
-  int count = 1;
-  for (int at = 0; at < count; ++at) {
+  for (int at = 0;; ++at) {
     PhysicsScene changed = scene;
     ChangeLeaf change(at);
-    change.walk(changed, {});
-    count = change.seen();
+    change.walk(changed, Role::Physics);
+    if (!change.changed()) {
+      return;
+    }
     visit(changed, change.leaf());
   }
 }
