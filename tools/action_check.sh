@@ -12,6 +12,13 @@ if ! command -v tenon >/dev/null; then
     echo "::error::tenon is not on the PATH; name its wheel with the input package" >&2
     exit 2
   fi
+  case "$TENON_PACKAGE" in
+    */* | *.whl | *==*) ;;
+    *)
+      echo "::error::the input package names no version; write $TENON_PACKAGE==VERSION" >&2
+      exit 2
+      ;;
+  esac
   python3 -m pip install --quiet "$TENON_PACKAGE" || exit 2
 fi
 assets=()

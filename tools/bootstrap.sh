@@ -116,6 +116,7 @@ need_for_test() {
   need_for_page
   need_package libgtest-dev
   need_tool valgrind valgrind --version
+  need_tool strace strace --version
   need_tool binutils readelf --version
   need_tool pkg-config pkg-config --version
   need_oracle_python

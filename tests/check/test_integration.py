@@ -152,6 +152,20 @@ class Action(Folder):
         self.assertEqual(done.returncode, 2)
         self.assertIn("input package", done.stderr)
 
+    def test_a_wheel_without_a_version_is_not_installed(self):
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/bash").symlink_to(shutil.which("bash"))
+        done = self.run_words(ROOT / "tools/action_check.sh", PATH=str(self.folder / "bin"),
+                              TENON_PACKAGE="tenon-usd")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("tenon-usd==VERSION", done.stderr)
+
+    def test_what_the_action_uses_is_pinned_by_its_commit(self):
+        used = re.findall(r"uses: (\S+)", (ROOT / "action.yml").read_text())
+        self.assertTrue(used)
+        for name in used:
+            self.assertRegex(name, r"@[0-9a-f]{40}$")
+
     def test_an_input_is_never_a_command_or_an_option(self):
         told, _ = self.step(TENON_ASSETS="$(touch planted)\n--fix\n; touch planted")
         self.assertEqual(told["code"], "2")

@@ -25,6 +25,7 @@
 #include "tenon/bytes/read_record.h"
 #include "tenon/bytes/write/edit_journal.h"
 #include "tenon/bytes/write/folder_lock.h"
+#include "tenon/bytes/write/held_signals.h"
 #include "tenon/bytes/write/new_file.h"
 
 namespace tenon::bytes {
@@ -195,8 +196,11 @@ class Commit {
   }
 
   Result<void> write_beside() {
+    if (options_.make_folders) {
+      held_.begin();
+    }
     for (const Place& place : places_) {
-      if (const int error = write_beside(place); error != 0) {
+      if (const int error = is_asked_to_end() ? EINTR : write_beside(place); error != 0) {
         return unwritable(place.path, "file", error);
       }
     }
@@ -403,6 +407,7 @@ class Commit {
   std::vector<FileTransaction::Removal> removals_;
   std::vector<NewFile> files_;  // for each place
   std::vector<std::string> made_folders_;
+  HeldSignals held_;  // while folders may be new and empty
   std::string home_;
 };
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/write/file_transaction.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -327,6 +329,33 @@ TEST_F(Transaction, AKillAtAnySystemCallLeavesTheOldOrTheNew) {
   }
   EXPECT_GT(old_ones, 15);
   EXPECT_GT(new_ones, 2);
+}
+
+TEST_F(Transaction, ARequestToEndLeavesNoHiddenNamesAndNoEmptyFolders) {
+  constexpr const char* kNew = "made/here/new.usda";
+  for (int call = 1;; ++call) {
+    fs::remove_all(root_);
+    put(kOld);
+    const std::optional<bool> ended = killed_at(
+        call,
+        [&] {
+          FileTransaction transaction;
+          transaction.put(at(kNew), "new");
+          return transaction.commit({.make_folders = true}).has_value();
+        },
+        SIGTERM);
+    if (!ended) {
+      GTEST_SKIP() << "processes may not be traced here";
+    }
+    ASSERT_EQ(fs::exists(at("made")), fs::exists(at(kNew))) << "at call " << call;
+    for (fs::recursive_directory_iterator entry(root_), end; entry != end; ++entry) {
+      ASSERT_FALSE(entry->path().filename().string().starts_with(".tenon-")) << "at call " << call;
+    }
+    if (!*ended) {
+      break;
+    }
+    ASSERT_LT(call, 5000);
+  }
 }
 
 }  // namespace

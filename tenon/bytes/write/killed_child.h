@@ -13,9 +13,11 @@
 /// For tests of what a kill leaves behind.
 namespace tenon::bytes {
 
-/// Runs `deed` in a child and kills it as it enters its system call number `call`, from 1. False
-/// once the child ends before that; nothing where processes may not be traced or the deed fails.
-inline std::optional<bool> killed_at(int call, const std::function<bool()>& deed) {
+/// Runs `deed` in a child that gets a signal as it enters its system call number `call`, from 1,
+/// and waits until it has ended. False once the child ends before that; nothing where processes may
+/// not be traced or the deed fails.
+inline std::optional<bool> killed_at(int call, const std::function<bool()>& deed,
+                                     int signal = SIGKILL) {
   const pid_t child = ::fork();
   if (child == 0) {
     if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) {
@@ -36,8 +38,13 @@ inline std::optional<bool> killed_at(int call, const std::function<bool()>& deed
       return WEXITSTATUS(status) == 0 ? std::optional<bool>(false) : std::nullopt;
     }
   }
-  ::kill(child, SIGKILL);
-  ::waitpid(child, &status, 0);
+  ::kill(child, signal);
+  int passed_on = signal == SIGKILL ? SIGKILL : 0;
+  do {  // it stops once more as a signal reaches it
+    ::ptrace(PTRACE_CONT, child, nullptr, passed_on);
+    ::waitpid(child, &status, 0);
+    passed_on = WIFSTOPPED(status) ? WSTOPSIG(status) : 0;
+  } while (WIFSTOPPED(status));
   return true;
 }
 

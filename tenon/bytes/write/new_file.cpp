@@ -34,6 +34,7 @@ std::string follow_links(std::string path) {
 
 NewFile::NewFile(NewFile&& other) noexcept
     : folder_(std::move(other.folder_)),
+      held_(std::move(other.held_)),
       name_(std::exchange(other.name_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
@@ -60,6 +61,7 @@ int NewFile::open(Name name) {
     return 0;
   }
 #endif
+  held_.begin();
   return with_free_name(folder_, name_, [&](const std::string& free) {
     descriptor_ = ::open(free.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     return descriptor_ >= 0;
@@ -84,6 +86,7 @@ int NewFile::write(std::string_view contents) {
 int NewFile::sync() const { return ::fsync(descriptor_) == 0 ? 0 : errno; }
 
 int NewFile::rename_to(const std::string& target) {
+  held_.begin();
   if (name_.empty()) {
     const std::string self = link_source();
     const int error = with_free_name(folder_, name_, [&](const std::string& name) {
@@ -96,7 +99,7 @@ int NewFile::rename_to(const std::string& target) {
   if (::rename(name_.c_str(), target.c_str()) != 0) {
     return errno;
   }
-  name_.clear();
+  let_go();
   return 0;
 }
 

@@ -7,6 +7,8 @@
 
 #include <sys/stat.h>
 
+#include "tenon/bytes/write/held_signals.h"
+
 /// A file in the making, for those who put files in their places. Functions return 0 or an error
 /// number.
 namespace tenon::bytes {
@@ -15,7 +17,8 @@ namespace tenon::bytes {
 std::string follow_links(std::string path);
 
 /// A file in the making, in the folder of its place. It has no name at first where the file system
-/// knows such files, so that nothing is left when the process ends early; else a hidden one.
+/// knows such files, so that nothing is left when the process ends early; else a hidden one, which
+/// signals that ask the process to end wait for.
 class NewFile {
  public:
   enum class Name : bool { None, Hidden };
@@ -46,11 +49,15 @@ class NewFile {
   /// Where a file without a name can be linked from, by this process and its children.
   std::string link_source() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
   /// From now on another owner removes the name.
-  void let_go() { name_.clear(); }
+  void let_go() {
+    name_.clear();
+    held_.end();
+  }
 
  private:
   std::string folder_;
-  std::string name_;  // while it has a hidden one
+  HeldSignals held_;  // while it has a hidden name
+  std::string name_;
   int descriptor_ = -1;
 };
 

@@ -8,6 +8,7 @@
 #include "tenon/bytes/write/new_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <utility>
 
@@ -73,6 +74,7 @@ void sweep(const std::string& parent) {
 
 Result<NewFolder> NewFolder::beside(const std::string& place) {
   NewFolder made(place);
+  made.held_.begin();
   sweep(parent_of(place));
   constexpr int kNames = 10;  // another program may sweep the folder away before it is locked
   for (int i = 0; i < kNames && (i == 0 || ::access(made.path_.c_str(), F_OK) != 0); ++i) {
@@ -94,6 +96,7 @@ Result<NewFolder> NewFolder::beside(const std::string& place) {
 NewFolder::NewFolder(NewFolder&& other) noexcept
     : place_(std::move(other.place_)),
       path_(std::exchange(other.path_, {})),
+      held_(std::move(other.held_)),
       lock_(std::exchange(other.lock_, -1)),
       folders_(std::move(other.folders_)),
       files_(std::move(other.files_)) {}
@@ -127,7 +130,7 @@ Result<void> NewFolder::add_folder(const std::string& name) {
 }
 
 Result<void> NewFolder::add_file(const std::string& name, std::string_view contents) {
-  int error = make_folders(parent_of(name));
+  int error = is_asked_to_end() ? EINTR : make_folders(parent_of(name));
   files_.push_back(path_ + "/" + name);
   error = error != 0 ? error : write_new_file(files_.back(), contents);
   return error == 0 ? Result<void>() : unwritable(place_ + "/" + name, "file", error);

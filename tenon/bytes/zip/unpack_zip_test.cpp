@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/bytes/zip/unpack_zip.h"
 
+#include <csignal>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "tenon/bytes/file_bytes.h"
+#include "tenon/bytes/write/killed_child.h"
 
 namespace tenon::bytes {
 namespace {
@@ -53,6 +57,30 @@ TEST_F(UnpackZip, NoNameLeavesTheFolder) {
     EXPECT_EQ(done.error().diagnostic().rule, "package.bad-name") << name;
     EXPECT_EQ(files_in_root(), 0u) << name;
   }
+}
+
+TEST_F(UnpackZip, ARequestToEndLeavesTheFolderOrNothing) {
+  const ZipArchive archive = archive_of({{"a.usda", "A"}, {"b/c/d.png", "D"}, {"e.usda", "E"}});
+  std::size_t without = 0;
+  for (int call = 1;; ++call) {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+    const std::string folder = (root_ / "out").string();
+    const std::optional<bool> ended =
+        killed_at(call, [&] { return unpack_zip(archive, folder).has_value(); }, SIGTERM);
+    if (!ended) {
+      GTEST_SKIP() << "processes may not be traced here";
+    }
+    const auto entries = std::distance(fs::directory_iterator(root_), fs::directory_iterator());
+    ASSERT_EQ(entries, fs::exists(folder) ? 1 : 0) << "at call " << call;
+    ASSERT_EQ(files_in_root(), fs::exists(folder) ? 3u : 0u) << "at call " << call;
+    without += fs::exists(folder) ? 0 : 1;
+    if (!*ended) {
+      break;
+    }
+    ASSERT_LT(call, 5000);
+  }
+  EXPECT_GT(without, 10u);
 }
 
 TEST_F(UnpackZip, AFileIsNoFolder) {
