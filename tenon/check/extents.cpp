@@ -85,13 +85,22 @@ std::pair<Vec3d, Vec3d> bounds_of_shape(const scene::PhysicsScene& scene, const 
   }
 }
 
+double volume_of(const Subject& subject, Index collider) {
+  double& known = subject.known_volumes[collider];
+  if (std::isnan(known)) {
+    known = scene::shape_integrals(subject.scene.colliders[collider].shape, subject.scene.meshes)
+                .volume;
+  }
+  return known;
+}
+
 }  // namespace
 
 Extent extent_of(const Subject& subject, Index body) {
   Extent extent;
   for (const Index i : subject.colliders_of_body[body]) {
     const scene::Collider& collider = subject.scene.colliders[i];
-    extent.volume += scene::shape_integrals(collider.shape, subject.scene.meshes).volume;
+    extent.volume += volume_of(subject, i);
     const double reach = reach_of(subject.scene, collider.shape);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       extent.low[axis] = std::fmin(extent.low[axis], collider.pose.position[axis] - reach);

@@ -48,7 +48,8 @@ std::vector<stage::Prim> counted_prims(const stage::Stage& stage) {
 
 Subject make_subject(const stage::Stage& stage, const scene::PhysicsScene& scene,
                      const std::vector<Diagnostic>& earlier) {
-  Subject subject{stage, scene, counted_prims(stage), {}, {}};
+  Subject subject{stage, scene, counted_prims(stage), {}, {}, {}};
+  subject.known_volumes.assign(scene.colliders.size(), kNotANumber);
   for (const Diagnostic& diagnostic : earlier) {
     subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.property);
     subject.earlier.insert(diagnostic.prim + ' ' + diagnostic.rule);
@@ -113,11 +114,7 @@ void Reporter::at(const stage::Prim& prim, Token property, const Message& messag
 
 void Reporter::at_target(const stage::Prim& prim, Token property, Path target,
                          const Message& message, std::string fix) {
-  constexpr std::size_t kMostPlaced = 32;
-  const Path place = prim.path().property(property);
-  placed_ = place == placed_on_ ? placed_ + 1 : 1;
-  placed_on_ = place;
-  if (placed_ > kMostPlaced) {
+  if (!placed_.take(prim.path().property(property))) {
     at(prim, property, message, std::move(fix));
     return;
   }

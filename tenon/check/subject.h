@@ -12,6 +12,7 @@
 #include "tenon/check/rule.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
+#include "tenon/stage/targets/placed_targets.h"
 
 namespace tenon::check {
 
@@ -28,6 +29,9 @@ struct Subject {
   /// "prim property" and "prim rule" of what was found before the rules run: while opening,
   /// composing and reading the physics.
   std::unordered_set<std::string> earlier;
+  /// Volumes that some rule has asked for [m^3], NaN: not yet, since a mesh may be large;
+  /// (collider_count). Of extent_of alone.
+  mutable std::vector<double> known_volumes;
 
   /// Some finding on this property of this prim is known already.
   bool is_reported(const std::string& prim, const std::string& property) const;
@@ -64,8 +68,7 @@ class Reporter {
 
   const Rule* rule_;
   std::vector<Diagnostic>* out_;
-  Path placed_on_;          ///< the property of the last target
-  std::size_t placed_ = 0;  ///< targets of it
+  stage::PlacedTargets placed_;
 };
 
 /// Three digits, enough for a message.

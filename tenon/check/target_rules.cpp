@@ -5,9 +5,11 @@
 // without colliders, collections that lead back to themselves, materials for another purpose. What
 // names nothing at all has its findings from the reader.
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
+#include <vector>
 
 #include "tenon/check/subject.h"
 
@@ -69,25 +71,93 @@ std::vector<Path> included_collections(const stage::Stage& stage, Path collectio
   return included;
 }
 
-/// The collection that one includes and that leads back to it; an empty path: none.
-Path way_back(const stage::Stage& stage, Path collection) {
-  for (const Path& through : included_collections(stage, collection)) {
-    std::unordered_set<Path> seen;
-    std::vector<Path> pending{through};
-    while (!pending.empty()) {
-      const Path at = pending.back();
-      pending.pop_back();
-      if (at == collection) {
-        return through;
+/// Collections by what they include, and which of them lead to each other (Tarjan's strongly
+/// connected components, without recursion: an asset says how deep it goes).
+class CollectionGraph {
+ public:
+  explicit CollectionGraph(const stage::Stage& stage) : stage_(stage) {}
+
+  /// The first collection that one includes and that leads back to it; an empty path: none.
+  Path way_back(Path collection) {
+    const std::size_t own = number_of(collection);
+    if (nodes_[own].component == kNone) {
+      walk(own);
+    }
+    for (const std::size_t next : nodes_[own].includes) {
+      if (next == own || nodes_[next].component == nodes_[own].component) {
+        return nodes_[next].path;
       }
-      if (seen.insert(at).second) {
-        const std::vector<Path> next = included_collections(stage, at);
-        pending.insert(pending.end(), next.begin(), next.end());
+    }
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t kNone = SIZE_MAX;
+
+  struct Node {
+    Path path;
+    std::vector<std::size_t> includes{};
+    std::size_t next = 0;           // of includes, to be looked at
+    std::size_t met = kNone;        // in which order
+    std::size_t low = kNone;        // the first met that is open and is led to
+    std::size_t component = kNone;  // once closed
+  };
+
+  std::size_t number_of(Path collection) {
+    const auto [at, is_new] = numbers_.emplace(collection, nodes_.size());
+    if (is_new) {
+      nodes_.push_back({collection});
+    }
+    return at->second;
+  }
+
+  void meet(std::size_t node) {
+    for (const Path& path : included_collections(stage_, nodes_[node].path)) {
+      const std::size_t next = number_of(path);
+      nodes_[node].includes.push_back(next);
+    }
+    nodes_[node].met = nodes_[node].low = met_++;
+    open_.push_back(node);
+    way_.push_back(node);
+  }
+
+  void walk(std::size_t start) {
+    meet(start);
+    while (!way_.empty()) {
+      Node& at = nodes_[way_.back()];
+      if (at.next == at.includes.size()) {
+        leave();
+        continue;
+      }
+      const std::size_t next = at.includes[at.next++];
+      if (nodes_[next].met == kNone) {
+        meet(next);
+      } else if (nodes_[next].component == kNone) {
+        at.low = std::min(at.low, nodes_[next].met);
       }
     }
   }
-  return {};
-}
+
+  /// Ends a node, and with the first one of a component the component.
+  void leave() {
+    const std::size_t node = way_.back();
+    way_.pop_back();
+    if (!way_.empty()) {
+      nodes_[way_.back()].low = std::min(nodes_[way_.back()].low, nodes_[node].low);
+    }
+    while (nodes_[node].low == nodes_[node].met && nodes_[node].component == kNone) {
+      nodes_[open_.back()].component = node;
+      open_.pop_back();
+    }
+  }
+
+  const stage::Stage& stage_;
+  std::unordered_map<Path, std::size_t> numbers_;
+  std::vector<Node> nodes_;
+  std::size_t met_ = 0;
+  std::vector<std::size_t> open_;  // met, of no component yet
+  std::vector<std::size_t> way_;   // from the start to where the walk is
+};
 
 /// Renderers ask for it, with what they need to draw.
 bool is_drawn_for(std::string_view purpose, const stage::Prim& material) {
@@ -148,12 +218,13 @@ void check_filtered_colliders(const Subject& subject, Reporter& report) {
 
 // S-76
 void check_group_cycle(const Subject& subject, Reporter& report) {
+  CollectionGraph graph(subject.stage);
   for (const stage::Prim& prim : subject.prims) {
     if (prim.type_name() != "PhysicsCollisionGroup") {
       continue;
     }
     const Path own = prim.path().property("collection:colliders");
-    const Path through = way_back(subject.stage, own);
+    const Path through = graph.way_back(own);
     if (!through.empty()) {
       report.at_target(prim, kIncludes, through,
                        "the collection leads back to itself through " +

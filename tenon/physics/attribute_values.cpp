@@ -177,7 +177,10 @@ void AttributeValues::report(const stage::Prim& prim, Token name, Severity sever
 void AttributeValues::report_target(const stage::Prim& prim, Token name, Path target,
                                     Severity severity, const char* rule, const Message& message,
                                     std::string fix) const {
-  Diagnostic finding = prim.relationship(name).located_target(severity, rule, message, target);
+  const stage::Relationship relationship = prim.relationship(name);
+  Diagnostic finding = placed_->take(prim.path().property(name))
+                           ? relationship.located_target(severity, rule, message, target)
+                           : relationship.located(severity, rule, message);
   finding.fix = std::move(fix);
   diagnostics_->add(std::move(finding));
 }

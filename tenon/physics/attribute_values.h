@@ -16,6 +16,7 @@
 #include "tenon/stage/attribute.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/stage.h"
+#include "tenon/stage/targets/placed_targets.h"
 #include "tenon/stage/time.h"
 #include "tenon/stage/values/value_memo.h"
 
@@ -99,7 +100,7 @@ class AttributeValues {
   /// One finding with the place of the strongest opinion about the attribute.
   void report(const stage::Prim& prim, Token name, Severity severity, const char* rule,
               const Message& message, std::string fix, StatementPart part = {}) const;
-  /// The same with the place of one of its targets.
+  /// The same with the place of one of its targets, of the first ones of a property.
   void report_target(const stage::Prim& prim, Token name, Path target, Severity severity,
                      const char* rule, const Message& message, std::string fix) const;
 
@@ -117,6 +118,7 @@ class AttributeValues {
   std::unordered_set<std::string>* asked_ = nullptr;
   Diagnostics* diagnostics_;
   std::shared_ptr<stage::ValueMemo> memo_ = std::make_shared<stage::ValueMemo>();
+  std::shared_ptr<stage::PlacedTargets> placed_ = std::make_shared<stage::PlacedTargets>();
 };
 
 /// One finding about a prim as a whole, or about what `part` names.

@@ -17,9 +17,11 @@ inline constexpr std::size_t kHullPoints = 10'000;            ///< corners of a 
 inline constexpr std::size_t kSensorWidth = 10'000;           ///< measurements in a sensor's mean
 inline constexpr std::size_t kSensorRays = 1'000'000;         ///< of all sensors of a robot
 inline constexpr std::size_t kNestingStates = 1'000;          ///< of bodies switched off in others
-inline constexpr std::size_t kSetsOfCollider = 256;       ///< of filters that one collider is in
-inline constexpr std::size_t kCollisionGroups = 4'096;    ///< of a stage
-inline constexpr std::size_t kDisabledPairs = 1'000'000;  ///< of colliders, that are listed
+inline constexpr std::size_t kSetsOfCollider = 256;     ///< of filters that one collider is in
+inline constexpr std::size_t kCollisionGroups = 4'096;  ///< of a stage
+/// Targets of collections that are read for all of them, a collection for 20.
+inline constexpr std::size_t kCollisionGroupWork = 2'000'000;
+inline constexpr std::size_t kDisabledPairs = 1'000'000;      ///< of colliders, that are listed
 inline constexpr std::size_t kDisabledPairWork = 50'000'000;  ///< colliders looked at for them
 inline constexpr std::size_t kDenseCoordinates = 1'000;       ///< of bodies that hang together
 inline constexpr std::size_t kDenseWork = 2'000'000'000;      ///< multiplications for inertias

@@ -84,13 +84,20 @@ void read_group_states(ReadState& state, const std::vector<std::uint32_t>& prims
   }
 }
 
-/// Membership is asked of the colliders' own paths (S-76). Gives the work of matching (kMatchWork);
-/// `work` is that of the groups before.
-std::size_t find_members(ReadState& state, const PhysicsPrim& found, Index group,
-                         std::size_t work) {
-  const stage::Collection members = stage::Collection::read(found.prim, Token("colliders"));
+/// Of all groups so far.
+struct GroupWork {
+  std::size_t read = 0;     ///< kCollisionGroupWork
+  std::size_t matched = 0;  ///< kMatchWork
+};
+
+/// Membership is asked of the colliders' own paths (S-76).
+void find_members(ReadState& state, const PhysicsPrim& found, Index group, GroupWork& work) {
+  const stage::Collection members = stage::Collection::read(
+      found.prim, Token("colliders"),
+      limits::kCollisionGroupWork - std::min(work.read, limits::kCollisionGroupWork));
+  work.read += members.work();
   const auto is_exhausted = [&] {
-    return members.rules().empty() && work + members.match_work() > limits::kMatchWork;
+    return members.rules().empty() && work.matched + members.match_work() > limits::kMatchWork;
   };
   for (std::size_t i = 0; i < state.scene.colliders.size() && !is_exhausted(); ++i) {
     // Instances of point instancers are members where their prototypes are, too.
@@ -102,10 +109,11 @@ std::size_t find_members(ReadState& state, const PhysicsPrim& found, Index group
   }
   if (members.is_cut() || is_exhausted()) {
     state.not_read(found.prim, "collection:colliders",
-                   "the collection is too large or its expression too costly (docs/limits.md); "
-                   "some of its colliders are not in the group");
+                   "the collection, or all of groups together, are too large "
+                   "(kCollisionGroupWork, kCollectionItems, kMatchWork); some of its colliders are "
+                   "not in the group");
   }
-  return members.match_work();
+  work.matched += members.match_work();
 }
 
 /// S-78
@@ -145,11 +153,11 @@ void read_collision_groups(ReadState& state) {
     filter.group_paths.push_back(state.walk.prims[i].path);
   }
   std::vector<AuthoredGroup> groups;
-  std::size_t match_work = 0;
+  GroupWork work;
   for (const std::uint32_t i : prims) {
     const auto index = static_cast<Index>(groups.size());
     groups.push_back(read_group(state, state.walk.prims[i], filter.group_paths));
-    match_work += find_members(state, state.walk.prims[i], index, match_work);
+    find_members(state, state.walk.prims[i], index, work);
   }
   GroupTable table = table_of(state, state.walk, groups);
   filter.group_pair_off = std::move(table.pair_off);

@@ -64,6 +64,8 @@ Rule expansion_rule(const Prim& prim, Token name) {
 /// Reads the rules of a collection and of those that it includes.
 class RuleReader {
  public:
+  explicit RuleReader(std::size_t most) : most_(most) {}
+
   Rules read(const Prim& prim, Token name) {
     open(prim, name);
     while (true) {
@@ -74,6 +76,7 @@ class RuleReader {
       }
       finish(frame);
       Rules rules = std::move(frame.rules);
+      open_.erase(frame.path);
       frames_.pop_back();
       if (frames_.empty()) {
         return rules;
@@ -83,9 +86,13 @@ class RuleReader {
   }
 
   /// A limit was met, and there are more rules than were read.
-  bool is_cut() const { return is_cut_ || items_ > limits::kCollectionItems; }
+  bool is_cut() const { return is_cut_ || is_exhausted(); }
+
+  std::size_t work() const { return items_ + kVisit * visits_; }
 
  private:
+  static constexpr std::size_t kVisit = 20;  // work of a collection beside its targets
+
   struct Frame {
     Prim prim;
     Token name;
@@ -96,8 +103,12 @@ class RuleReader {
     Rules rules;
   };
 
+  bool is_exhausted() const { return items_ > limits::kCollectionItems || work() > most_; }
+
   void open(const Prim& prim, Token name) {
-    if (items_ > limits::kCollectionItems) {
+    ++visits_;
+    open_.insert(collection_path(prim, name));
+    if (is_exhausted()) {
       frames_.push_back({prim, name, collection_path(prim, name), Rule::ExplicitOnly, {}, 0, {}});
       return;
     }
@@ -108,7 +119,6 @@ class RuleReader {
                        prim.relationship(property(name, "includes")).targets(),
                        0,
                        {}});
-    ++visits_;
     items_ += frames_.back().includes.size();
   }
 
@@ -119,9 +129,7 @@ class RuleReader {
       return;
     }
     const Prim prim = frames_.back().prim.prim_at(path.parent());
-    const bool leads_back = std::any_of(frames_.begin(), frames_.end(),
-                                        [&](const Frame& frame) { return frame.path == path; });
-    if (prim && !leads_back) {
+    if (prim && !open_.contains(collection_path(prim, *name))) {
       is_cut_ = is_cut_ || visits_ >= limits::kCollectionVisits;
       if (visits_ < limits::kCollectionVisits) {
         open(prim, *name);
@@ -130,7 +138,7 @@ class RuleReader {
   }
 
   void finish(Frame& frame) {
-    if (items_ > limits::kCollectionItems) {
+    if (is_exhausted()) {
       return;
     }
     if (frame.rule != Rule::ExplicitOnly &&
@@ -157,7 +165,9 @@ class RuleReader {
     }
   }
 
+  std::size_t most_;
   std::vector<Frame> frames_;
+  std::unordered_set<Path> open_;  // of the frames
   std::size_t visits_ = 0;
   std::size_t items_ = 0;  // included and excluded
   bool is_cut_ = false;
@@ -238,14 +248,15 @@ layer::PathExpressionTree complete_membership_expression(const Prim& prim, Token
   return ExpressionResolver().resolve(prim, name);
 }
 
-Collection Collection::read(const Prim& prim, Token name) {
+Collection Collection::read(const Prim& prim, Token name, std::size_t most) {
   Collection result;
   if (!prim) {
     return result;
   }
-  RuleReader reader;
+  RuleReader reader(most);
   result.rules_ = reader.read(prim, name);
   result.is_cut_ = reader.is_cut();
+  result.work_ = reader.work();
   result.top_rule_ = expansion_rule(prim, name);
   // An expression that cannot be evaluated matches nothing.
   if (auto matcher = PathMatcher::make(complete_membership_expression(prim, name), prim)) {

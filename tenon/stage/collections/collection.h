@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -25,7 +27,8 @@ class Collection {
   using Rules = std::unordered_map<Path, Rule>;
 
   /// The collection `prim`.collection:`name`; an empty one when there is none.
-  static Collection read(const Prim& prim, Token name);
+  /// `most`: work of reading (see `work`) after which the rest of it is not found.
+  static Collection read(const Prim& prim, Token name, std::size_t most = SIZE_MAX);
 
   bool contains(Path path) const;
   /// All that belongs, sorted: prims that a stage traversal meets by default (active, loaded,
@@ -34,9 +37,11 @@ class Collection {
 
   /// Rules of this and of included collections; the one of the nearest path at or above counts.
   const Rules& rules() const { return rules_; }
-  /// A limit was met (kCollectionVisits, kCollectionItems, kMatchWork): some of what belongs is not
-  /// found. Also true once a question to `contains` took too much.
+  /// A limit was met (kCollectionVisits, kCollectionItems, kMatchWork, `most`): some of what
+  /// belongs is not found. Also true once a question to `contains` took too much.
   bool is_cut() const { return is_cut_ || matcher_.is_exhausted(); }
+  /// Targets that were read for it, each collection on the way for 20 more.
+  std::size_t work() const { return work_; }
   /// Names compared so far for the membership expression, of which kMatchWork are allowed.
   std::size_t match_work() const { return matcher_.work(); }
 
@@ -48,6 +53,7 @@ class Collection {
 
   Rules rules_;
   bool is_cut_ = false;
+  std::size_t work_ = 0;
   Rule top_rule_ = Rule::ExpandPrims;
   PathMatcher matcher_;
 };

@@ -139,5 +139,23 @@ TEST(Collection, PropertiesBelongToWhatExpandsToThem) {
   EXPECT_TRUE(collection.contains(Path::from("/W/a1")));
 }
 
+TEST(Collection, ReadingEndsAfterTheWorkThatIsAllowed) {
+  std::string lines;
+  for (int i = 0; i < 50; ++i) {
+    const std::string name = "collection:" + (i == 0 ? "c" : "c" + std::to_string(i));
+    lines +=
+        "rel " + name + ":includes = [</W/a1>, </W.collection:c" + std::to_string(i + 1) + ">]\n";
+  }
+  const Stage stage = open_text(text_of(lines));
+  const Prim prim = stage.prim(Path::from("/W"));
+  const Collection whole = Collection::read(prim, Token("c"));
+  EXPECT_FALSE(whole.is_cut());
+  EXPECT_GE(whole.work(), std::size_t{50 * 22});
+  const Collection part = Collection::read(prim, Token("c"), 200);
+  EXPECT_TRUE(part.is_cut());
+  EXPECT_LT(part.work(), std::size_t{260});
+  EXPECT_TRUE(part.contains(Path::from("/W/a1")));
+}
+
 }  // namespace
 }  // namespace tenon::stage
