@@ -49,7 +49,8 @@ void Report::print_diagnostics() const {
   }
 }
 
-int Report::finish(int code, Json body) {
+/// The exit code, once the findings know their places.
+int Report::settled(int code) {
   if (code == kOk && !any_exit_code_misleads_) {
     const bool missing =
         std::any_of(diagnostics.begin(), diagnostics.end(), tells_of_missing_input);
@@ -60,21 +61,39 @@ int Report::finish(int code, Json body) {
         return d.file == bytes::absolute_file_path("-");
       });
   formats::find_places(diagnostics, piped ? disk_and_standard_input() : bytes::Files());
-  const std::string settings = shown_path(settings_);
+  return code;
+}
+
+answers::Envelope Report::envelope(int code) const {
+  return {TENON_VERSION, verb_, asset_, code == kOk, shown_path(settings_)};
+}
+
+int Report::finish(int code, Json body) {
+  code = settled(code);
+  const answers::Envelope head = envelope(code);
   if (!json()) {
     print_diagnostics();
-    if (!settings.empty() && verbose()) {
-      note("settings: " + settings);
+    if (!head.settings.empty() && verbose()) {
+      note("settings: " + head.settings);
     }
     return code;
   }
-  Json envelope = answers::envelope_json({TENON_VERSION, verb_, asset_, code == kOk, settings},
-                                         diagnostics, std::move(body));
-  if (globals_.collected != nullptr) {
-    globals_.collected->list.push_back(std::move(envelope));
+  Json answer = answers::envelope_json(head, diagnostics, std::move(body));
+  if (!is_one()) {
+    globals_.collected->list.push_back(std::move(answer));
     return code;
   }
-  print_data(answers::printed(envelope, stdout_is_terminal()));
+  print_data(answers::printed(answer, stdout_is_terminal()));
+  return code;
+}
+
+int Report::finish_in_pieces(int code, const answers::WriteMembers& body) {
+  code = settled(code);
+  {
+    answers::JsonTextSink sink(2, stdout_is_terminal(), print_data);
+    answers::write_envelope(envelope(code), diagnostics, body, sink);
+  }
+  print_data("\n");
   return code;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/print.h"
 #include "cli/text/diagnostic_lines.h"
 #include "cli/verb.h"
+#include "tenon/answers/diagnostic_json.h"
 #include "tenon/answers/json.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
@@ -45,11 +46,17 @@ class Report {
   /// Prints the diagnostics, or with --json the envelope with `body` appended. Returns `code`, but
   /// 1 for 0 when a layer, a payload or a mesh that the input names was missing.
   int finish(int code, Json body = answers::nothing());
+  /// The same with --json for a long body of one asset (is_one), which is printed as it is made.
+  int finish_in_pieces(int code, const answers::WriteMembers& body);
+  /// The answer is not one of several that are printed together.
+  bool is_one() const { return globals_.collected == nullptr; }
   /// The same for a run that came to nothing.
   int fail(const Error& error);
 
  private:
   void print_diagnostics() const;
+  int settled(int code);
+  answers::Envelope envelope(int code) const;
 
   const Globals& globals_;
   std::string verb_;

@@ -48,6 +48,11 @@ int run_physics(const Globals& globals, const PhysicsArguments& options) {
   }
   const answers::Geometry geometry =
       options.geometry == "inline" ? answers::Geometry::Inline : answers::Geometry::Hash;
+  if (globals.json && report.is_one()) {
+    return report.finish_in_pieces(kOk, [&](answers::JsonTextSink& sink) {
+      answers::write_scene_members(scene, geometry, sink);
+    });
+  }
   return report.finish(
       kOk, globals.json ? answers::scene_json_value(scene, geometry) : answers::nothing());
 }

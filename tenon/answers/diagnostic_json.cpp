@@ -60,6 +60,18 @@ Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Jso
   return json;
 }
 
+void write_envelope(const Envelope& envelope, const Diagnostics& diagnostics,
+                    const WriteMembers& body, JsonTextSink& sink) {
+  const Json head = envelope_json(envelope, diagnostics, nothing());
+  sink.begin_object();
+  for (const auto& [key, value] : head.items()) {
+    sink.key(key);
+    sink.put(value);
+  }
+  body(sink);
+  sink.end_object();
+}
+
 Json assets_json(std::vector<Json> answers) {
   Json list = Json::array();
   for (Json& answer : answers) {

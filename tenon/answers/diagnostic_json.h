@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tenon/answers/dump/json_sink.h"
 #include "tenon/answers/json.h"
 #include "tenon/base/diagnostics.h"
 
@@ -28,6 +30,13 @@ struct Envelope {
 /// {"tool", "version", "schema", "asset", "ok", "diagnostics"}, "settings" where a file was read,
 /// then the keys of `body`, which may have diagnostics of its own.
 Json envelope_json(const Envelope& envelope, const Diagnostics& diagnostics, Json body);
+
+/// Writes members into an object that is open; none that the envelope has.
+using WriteMembers = std::function<void(JsonTextSink& sink)>;
+
+/// The same as text, for a body that is too long to be held.
+void write_envelope(const Envelope& envelope, const Diagnostics& diagnostics,
+                    const WriteMembers& body, JsonTextSink& sink);
 
 /// {"assets"}: the answers for several assets in one.
 Json assets_json(std::vector<Json> answers);

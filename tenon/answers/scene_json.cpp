@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One walk over the tables of fields writes every struct, so a new field needs no code here; values
-// computed for readers are added behind the fields. A reference is a path where only one object of
-// its list has that path, which is counted beforehand, else an index. Numbers have one form: no
-// negative zero, no negative real part of a quaternion, words for values that JSON has no number
-// for. The table also says whether a field with its default is written, is null or is omitted
-// (scene::Presence).
+// computed for readers are added behind the fields. It writes into a sink, which makes a value or
+// text: text is handed on in pieces, so that a scene of many bodies takes no memory for it. A
+// reference is a path where only one object of its list has that path, which is counted beforehand,
+// else an index. Numbers have one form: no negative zero, no negative real part of a quaternion,
+// words for values that JSON has no number for. The table also says whether a field with its
+// default is written, is null or is omitted (scene::Presence).
 #include "tenon/answers/scene_json.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
 
+#include "tenon/answers/dump/json_sink.h"
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json_value.h"
 #include "tenon/scene/fields/data_type.h"
@@ -31,62 +36,10 @@ using scene::Index;
 using scene::List;
 using scene::PhysicsScene;
 
-/// A number; what JSON has no number for as a word.
-Json number(double value) {
-  if (std::isfinite(value)) {
-    return value + 0.0;  // without the sign of a zero
-  }
-  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-}
-
-Json numbers(const Vec3d& v) { return {number(v[0]), number(v[1]), number(v[2])}; }
-
-/// Real part first and not negative: q and -q are one rotation.
-Json rotation(const Quatd& q) {
-  const double sign = q.w < 0 ? -1 : 1;
-  return {number(sign * q.w), number(sign * q.x), number(sign * q.y), number(sign * q.z)};
-}
-
 std::string hex(std::uint64_t value) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
   return text;
-}
-
-/// A key that the row does not have yet; to look for it first costs a walk over all keys.
-void append(Json& row, std::string_view key, Json value) {
-  row.get_ref<Json::object_t&>().emplace_back(std::string(key), std::move(value));
-}
-
-void add_pose(const Pose& pose, Json& row) {
-  append(row, "position", numbers(pose.position));
-  append(row, "orientation", rotation(pose.orientation));
-}
-
-Json settings(const std::vector<scene::VendorSetting>& all) {
-  Json rows = Json::object();
-  for (const scene::VendorSetting& setting : all) {
-    Json list = Json::array();
-    for (const double x : setting.numbers) {
-      list.push_back(number(x));
-    }
-    rows[setting.name] = setting.token.empty() ? list : Json(setting.token);
-  }
-  return rows;
-}
-
-void add_bounds(const scene::TriangleMesh& mesh, Json& row) {
-  Vec3d low{{INFINITY, INFINITY, INFINITY}};
-  Vec3d high = -low;
-  for (const Vec3d& p : mesh.points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = p[i] < low[i] ? p[i] : low[i];
-      high[i] = p[i] > high[i] ? p[i] : high[i];
-    }
-  }
-  const bool empty = mesh.points.empty();
-  row["lower"] = empty ? Json(nullptr) : numbers(low);
-  row["upper"] = empty ? Json(nullptr) : numbers(high);
 }
 
 /// What a track changes, where that is one thing.
@@ -99,14 +52,6 @@ std::string_view changing(DataView track) {
                                              : "";
 }
 
-void name_shapes(const PhysicsScene& scene, const scene::ShapesTrack& track, Json& row) {
-  for (const Index i : track.colliders) {
-    row["colliders"].push_back(scene.colliders[i].path.str());
-  }
-  row["lastMass"] = number(track.shapes.back().mass);
-  row["lastCenterOfMass"] = numbers(track.shapes.back().center_of_mass);
-}
-
 void name_switch(const scene::SwitchTrack& track, Json& row) {
   const List list = facts_of(view_of(track)).switched;
   const Json object = row["object"];
@@ -117,99 +62,180 @@ void name_switch(const scene::SwitchTrack& track, Json& row) {
                                                                : "enabled";
 }
 
-void name_value(const PhysicsScene& scene, DataView track, Json& row) {
-  if (const std::string_view what = changing(track); !what.empty()) {
-    row["value"] = std::string(what);
-  }
-  if (const auto* poses = track.get_if<scene::PoseTrack>(); poses != nullptr && !poses->joint) {
-    row.erase("side");
-  }
-  if (const auto* shapes = track.get_if<scene::ShapesTrack>()) {
-    name_shapes(scene, *shapes, row);
-  }
-  if (const auto* switched = track.get_if<scene::SwitchTrack>()) {
-    name_switch(*switched, row);
-  }
+/// A number that JSON cannot express, written as null.
+bool is_boundless(DataView value, DataView plain) {
+  return value.kind() == DataKind::Real && !std::isfinite(value.as<double>()) &&
+         value.as<double>() == plain.as<double>();
 }
 
-class Writer {
+/// Not where it says no more than its absence or null.
+bool is_written(DataView of, const FieldInfo& info, DataView value, DataView plain) {
+  return info.presence == scene::Presence::Always || counts(of, info) || !same_data(value, plain);
+}
+
+/// By which name an object of a scene is referred to.
+class References {
  public:
-  Writer(const PhysicsScene& scene, Geometry geometry) : scene_(scene), geometry_(geometry) {
+  explicit References(const PhysicsScene& scene) : scene_(scene) {
     for (const List list : {List::Scenes, List::Bodies, List::Colliders, List::Materials,
                             List::Joints, List::Articulations, List::Tendons, List::Actuators}) {
       for (Index i = 0; i < size_of(scene, list); ++i) {
-        ++times_[{list, path_of(scene, list, i)}];
+        ++times_[static_cast<std::size_t>(list)][path_of(scene, list, i)];
       }
     }
   }
 
-  Json whole() { return object(view_of(scene_)); }
+  const PhysicsScene& scene() const { return scene_; }
 
- private:
-  Json object(DataView value) {
-    Json row = Json::object();
-    // A row that grows copies all of its keys; most have a few derived values, too.
-    row.get_ref<Json::object_t&>().reserve(value.type->fields.size() + 6);
-    if (!value.is_a<scene::TriangleMesh>() || geometry_ == Geometry::Inline) {
-      add_fields(value, row);
+  /// The path, where no other object of the list has it.
+  std::optional<Path> path(List list, Index index) const {
+    if (list == List::Meshes) {
+      return std::nullopt;
     }
-    add_derived(value, row);
-    return row;
+    const Path path = path_of(scene_, list, index);
+    const auto& times = times_[static_cast<std::size_t>(list)];
+    const auto found = times.find(path);
+    return found != times.end() && found->second == 1 ? std::optional(path) : std::nullopt;
   }
 
-  void add_fields(DataView of, Json& row) {
+ private:
+  static constexpr std::size_t kLists = static_cast<std::size_t>(List::BySwitch) + 1;
+
+  const PhysicsScene& scene_;
+  std::array<std::unordered_map<Path, std::size_t>, kLists> times_;
+};
+
+/// A number; what JSON has no number for as a word.
+template <class Sink>
+void put_number(Sink& sink, double value) {
+  if (std::isfinite(value)) {
+    return sink.put(value + 0.0);  // without the sign of a zero
+  }
+  sink.put(std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+}
+
+template <class Sink>
+void put_path(Sink& sink, Path path) {
+  path.empty() ? sink.put(nullptr) : sink.put(path.str());
+}
+
+template <class Sink>
+void put_vector(Sink& sink, const Vec3d& v) {
+  sink.begin_array();
+  for (std::size_t i = 0; i < 3; ++i) {
+    put_number(sink, v[i]);
+  }
+  sink.end_array();
+}
+
+/// Real part first and not negative: q and -q are one rotation.
+template <class Sink>
+void put_rotation(Sink& sink, const Quatd& q) {
+  const double sign = q.w < 0 ? -1 : 1;
+  sink.begin_array();
+  for (const double part : {q.w, q.x, q.y, q.z}) {
+    put_number(sink, sign * part);
+  }
+  sink.end_array();
+}
+
+/// As members.
+template <class Sink>
+void put_pose(Sink& sink, const Pose& pose) {
+  sink.key("position");
+  put_vector(sink, pose.position);
+  sink.key("orientation");
+  put_rotation(sink, pose.orientation);
+}
+
+/// As members.
+template <class Sink>
+void put_bounds(Sink& sink, const scene::TriangleMesh& mesh) {
+  Vec3d low{{INFINITY, INFINITY, INFINITY}};
+  Vec3d high = -low;
+  for (const Vec3d& p : mesh.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = p[i] < low[i] ? p[i] : low[i];
+      high[i] = p[i] > high[i] ? p[i] : high[i];
+    }
+  }
+  const bool empty = mesh.points.empty();
+  sink.key("lower");
+  empty ? sink.put(nullptr) : put_vector(sink, low);
+  sink.key("upper");
+  empty ? sink.put(nullptr) : put_vector(sink, high);
+}
+
+/// What `write(sink)` writes, as a value, for what is looked at once more before it goes out.
+template <class Write>
+Json made(Write write) {
+  JsonValueSink sink;
+  write(sink);
+  return sink.take();
+}
+
+template <class Sink>
+class Writer {
+ public:
+  Writer(const References& references, Geometry geometry, Sink& sink)
+      : references_(references), scene_(references.scene()), geometry_(geometry), sink_(sink) {}
+
+  void object(DataView value) {
+    sink_.begin_object();
+    members(value);
+    sink_.end_object();
+  }
+
+  void members(DataView value) {
+    if (!value.is_a<scene::TriangleMesh>() || geometry_ == Geometry::Inline) {
+      fields(value);
+    }
+    derived(value);
+  }
+
+ private:
+  void fields(DataView of) {
     const DataView plain{of.type, of.type->plain};
     const scene::OwnerFacts owner = facts_of(of);
     for (const DataField& field : of.type->fields) {
       const DataView value = of.member(field);
       if (field.info->inlined) {
-        value.kind() == DataKind::Pose ? add_pose(value.as<Pose>(), row) : add_fields(value, row);
+        value.kind() == DataKind::Pose ? put_pose(sink_, value.as<Pose>()) : fields(value);
       } else if (is_written(of, *field.info, value, plain.member(field))) {
-        const List refers = list_of(owner, field.info->refers);
-        append(row, field.info->name,
-               is_boundless(value, plain.member(field)) ? Json(nullptr)
-                                                        : json(refers, *field.info, value));
+        sink_.key(field.info->name);
+        is_boundless(value, plain.member(field))
+            ? sink_.put(nullptr)
+            : json(list_of(owner, field.info->refers), *field.info, value);
       } else if (field.info->presence == scene::Presence::Null) {
-        append(row, field.info->name, nullptr);
+        sink_.key(field.info->name);
+        sink_.put(nullptr);
       }
     }
   }
 
-  /// A number that JSON cannot express, written as null.
-  static bool is_boundless(DataView value, DataView plain) {
-    return value.kind() == DataKind::Real && !std::isfinite(value.as<double>()) &&
-           value.as<double>() == plain.as<double>();
-  }
-
-  /// Not where it says no more than its absence or null.
-  static bool is_written(DataView of, const FieldInfo& info, DataView value, DataView plain) {
-    return info.presence == scene::Presence::Always || counts(of, info) || !same_data(value, plain);
-  }
-
   /// `refers`: into which list an index does.
-  Json json(List refers, const FieldInfo& info, DataView value) {
+  void json(List refers, const FieldInfo& info, DataView value) {
     switch (value.kind()) {
-      case DataKind::Flag: {
-        const bool on = value.as<bool>();
-        return info.on.empty() ? Json(on) : Json(std::string(on ? info.on : info.off));
-      }
+      case DataKind::Flag:
+        return info.on.empty() ? sink_.put(value.as<bool>())
+                               : sink_.put(value.as<bool>() ? info.on : info.off);
       case DataKind::Ordinal:
-        return refers == List::None ? Json(value.as<Index>())
+        return refers == List::None ? sink_.put(std::uint64_t{value.as<Index>()})
                                     : reference(refers, value.as<Index>());
       case DataKind::Word:
-        return std::string(word_of(value));
+        return sink_.put(std::string_view(word_of(value)));
       case DataKind::Real:
-        return number(value.as<double>());
+        return put_number(sink_, value.as<double>());
       case DataKind::Integer:
-        return static_cast<int>(number_of(value));
+        return sink_.put(std::int64_t{static_cast<int>(number_of(value))});
       case DataKind::Text:
-        return value.as<std::string>();
+        return sink_.put(value.as<std::string>());
       case DataKind::Path:
-        return value.as<Path>().empty() ? Json(nullptr) : Json(value.as<Path>().str());
+        return put_path(sink_, value.as<Path>());
       case DataKind::Optional:
-        return value.size() != 0 ? json(refers, info, value[0]) : Json(nullptr);
+        return value.size() != 0 ? json(refers, info, value[0]) : sink_.put(nullptr);
       case DataKind::Rotation:
-        return rotation(value.as<Quatd>());
+        return put_rotation(sink_, value.as<Quatd>());
       case DataKind::Struct:
         return object(value);
       default:
@@ -217,124 +243,152 @@ class Writer {
     }
   }
 
-  Json several(List refers, const FieldInfo& info, DataView value) {
+  void several(List refers, const FieldInfo& info, DataView value) {
     if (value.kind() == DataKind::Pose) {
-      Json row = Json::object();
-      add_pose(value.as<Pose>(), row);
-      return row;
-    }
-    if (value.kind() == DataKind::Pair) {
-      return {json(refers, info, value.first()), json(refers, info, value.second())};
+      sink_.begin_object();
+      put_pose(sink_, value.as<Pose>());
+      return sink_.end_object();
     }
     if (const auto* all = value.get_if<std::vector<scene::VendorSetting>>()) {
       return settings(*all);
     }
-    Json list = Json::array();
-    list.get_ref<Json::array_t&>().reserve(value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      list.push_back(json(refers, info, value[i]));
+    sink_.begin_array();
+    if (value.kind() == DataKind::Pair) {
+      json(refers, info, value.first());
+      json(refers, info, value.second());
+    } else {
+      const std::size_t count = value.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        json(refers, info, value[i]);
+      }
     }
-    return list;
+    sink_.end_array();
   }
 
-  Json reference(List list, Index index) const {
-    if (list == List::Meshes) {
-      return index;
+  /// Of two with one name the last counts.
+  void settings(const std::vector<scene::VendorSetting>& all) {
+    Json rows = Json::object();
+    for (const scene::VendorSetting& setting : all) {
+      const auto numbers = [&](auto& sink) {
+        sink.begin_array();
+        for (const double x : setting.numbers) {
+          put_number(sink, x);
+        }
+        sink.end_array();
+      };
+      rows[setting.name] = setting.token.empty() ? made(numbers) : Json(setting.token);
     }
-    const Path path = path_of(scene_, list, index);
-    const auto times = times_.find({list, path});
-    if (times == times_.end() || times->second != 1) {
-      return index;
-    }
-    return path.empty() ? Json(nullptr) : Json(path.str());
+    sink_.put(rows);
   }
+
+  void reference(List list, Index index) {
+    const std::optional<Path> unique = references_.path(list, index);
+    unique ? put_path(sink_, *unique) : sink_.put(std::uint64_t{index});
+  }
+
+  /// The same for a value.
+  Writer<JsonValueSink> into(JsonValueSink& sink) const { return {references_, geometry_, sink}; }
 
   // What follows from fields.
 
-  void add_derived(DataView value, Json& row) {
+  void derived(DataView value) {
     if (const auto* mesh = value.get_if<scene::TriangleMesh>()) {
-      add_derived(*mesh, row);
+      derived(*mesh);
     } else if (const auto* collider = value.get_if<scene::Collider>()) {
-      add_derived(*collider, row);
+      derived(*collider);
     } else if (const auto* limit = value.get_if<scene::Limit>()) {
-      row["locked"] = limit->locked();
+      member("locked", limit->locked());
     } else if (const auto* joint = value.get_if<scene::Joint>()) {
-      add_derived(*joint, row);
+      derived(*joint);
     } else if (const auto* scene = value.get_if<PhysicsScene>()) {
-      add_derived(*scene, row);
+      derived(*scene);
     }
   }
 
-  void add_derived(const scene::TriangleMesh& mesh, Json& row) {
-    row["hash"] = hex(mesh_hash(mesh));
-    row["pointCount"] = mesh.points.size();
-    row["triangleCount"] = mesh.triangles.size();
-    add_bounds(mesh, row);
+  template <class T>
+  void member(std::string_view key, const T& value) {
+    sink_.key(key);
+    sink_.put(value);
   }
-  void add_derived(const scene::Collider& collider, Json& row) {
+  void count(std::string_view key, std::size_t value) { member(key, std::uint64_t{value}); }
+
+  void derived(const scene::TriangleMesh& mesh) {
+    member("hash", hex(mesh_hash(mesh)));
+    count("pointCount", mesh.points.size());
+    count("triangleCount", mesh.triangles.size());
+    put_bounds(sink_, mesh);
+  }
+  void derived(const scene::Collider& collider) {
     const scene::Shape& shape = collider.shape;
     if (shape.kind != scene::ShapeKind::ConvexHull && shape.kind != scene::ShapeKind::Mesh) {
       return;
     }
     const scene::TriangleMesh& mesh = scene_.meshes[shape.mesh];
-    row["points"] = mesh.points.size();
-    row["triangles"] = mesh.triangles.size();
-    add_bounds(mesh, row);
-    row["flat"] = mesh.flat;
+    count("points", mesh.points.size());
+    count("triangles", mesh.triangles.size());
+    put_bounds(sink_, mesh);
+    member("flat", mesh.flat);
     if (!shape.pieces.empty()) {
-      row["pieces"] = shape.pieces.size();
+      count("pieces", shape.pieces.size());
     }
   }
-  void add_derived(const scene::Joint& joint, Json& row) {
-    row["locked"] = joint.lower > joint.upper;
-    append(row, "mimic",
-           joint.mimics.empty() ? Json(nullptr) : object(view_of(joint.mimics.front())));
+  void derived(const scene::Joint& joint) {
+    member("locked", joint.lower > joint.upper);
+    sink_.key("mimic");
+    joint.mimics.empty() ? sink_.put(nullptr) : object(view_of(joint.mimics.front()));
   }
-  void add_derived(const PhysicsScene& scene, Json& row) {
-    row["schemaVersion"] = std::string(kSceneSchemaVersion);
+  void derived(const PhysicsScene& scene) {
+    member("schemaVersion", std::string(kSceneSchemaVersion));
     const scene::ColliderPairs apart = scene.disabled_pairs();
-    row["disabledPairs"] = Json::array();
+    sink_.key("disabledPairs");
+    sink_.begin_array();
     for (const auto& [a, b] : apart.pairs) {
-      row["disabledPairs"].push_back(
-          {scene.colliders[a].path.str(), scene.colliders[b].path.str()});
+      sink_.begin_array();
+      sink_.put(scene.colliders[a].path.str());
+      sink_.put(scene.colliders[b].path.str());
+      sink_.end_array();
     }
-    row["disabledPairsCut"] = apart.is_cut;
-    row["animated"] = animated();
+    sink_.end_array();
+    member("disabledPairsCut", apart.is_cut);
+    sink_.key("animated");
+    animated();
   }
 
   /// A row for each track: of what, how many samples.
-  Json animated() {
-    Json rows = Json::array();
+  void animated() {
+    sink_.begin_array();
     const DataView scene = view_of(scene_);
     for (const DataField& field : scene.type->fields) {
       const bool are_tracks =
           is_struct_list(*field.type) && find_field(*field.type->item, "times") != nullptr;
       const DataView list = scene.member(field);
       for (std::size_t i = 0; are_tracks && i < list.size(); ++i) {
-        rows.push_back(track_row(list[i]));
+        sink_.put(track_row(list[i]));
       }
     }
     if (!scene_.nesting_states.empty()) {
-      rows.push_back({{"value", "nesting"},
-                      {"states", nesting()},
-                      {"samples", scene_.nesting_states.size()},
-                      {"held", true}});
+      sink_.put(Json{{"value", "nesting"},
+                     {"states", nesting()},
+                     {"samples", scene_.nesting_states.size()},
+                     {"held", true}});
     }
     if (!scene_.group_states.empty()) {
-      rows.push_back(
-          {{"value", "collisionGroups"}, {"samples", scene_.group_states.size()}, {"held", true}});
+      sink_.put(Json{
+          {"value", "collisionGroups"}, {"samples", scene_.group_states.size()}, {"held", true}});
     }
-    return rows;
+    sink_.end_array();
   }
 
-  Json nesting() {
+  Json nesting() const {
     Json states = Json::array();
     for (const scene::NestingState& state : scene_.nesting_states) {
-      Json row = object(view_of(state));
+      Json row = made([&](auto& sink) { into(sink).object(view_of(state)); });
       row["masses"] = Json::array();
       for (const auto& [body, mass] : state.masses) {
-        Json entry = {{"body", reference(List::Bodies, body)}};
-        entry.update(object(view_of(mass)));
+        Json entry = Json::object();
+        entry["body"] =
+            made([&, body = body](auto& sink) { into(sink).reference(List::Bodies, body); });
+        entry.update(made([&, &mass = mass](auto& sink) { into(sink).object(view_of(mass)); }));
         row["masses"].push_back(std::move(entry));
       }
       states.push_back(std::move(row));
@@ -342,37 +396,80 @@ class Writer {
     return states;
   }
 
-  Json track_row(DataView track) {
+  Json track_row(DataView track) const {
     Json row = Json::object();
     const scene::OwnerFacts owner = facts_of(track);
     for (const DataField& field : track.type->fields) {
       const DataView value = track.member(field);
       const bool is_there = value.kind() != DataKind::Optional || value.size() != 0;
       if (value.kind() != DataKind::List && is_there) {
-        row[std::string(field.info->name)] =
-            json(list_of(owner, field.info->refers), *field.info, value);
+        row[std::string(field.info->name)] = made([&](auto& sink) {
+          into(sink).json(list_of(owner, field.info->refers), *field.info, value);
+        });
       }
     }
-    name_value(scene_, track, row);
+    name_value(track, row);
     const DataField* held = find_field(*track.type, "held");
     row["samples"] = track.member(*find_field(*track.type, "times")).size();
-    row["held"] = held == nullptr || track.member(*held).as<bool>();
+    row["held"] = held == nullptr || track.member(*held).template as<bool>();
     return row;
   }
 
+  void name_value(DataView track, Json& row) const {
+    if (const std::string_view what = changing(track); !what.empty()) {
+      row["value"] = std::string(what);
+    }
+    if (const auto* poses = track.get_if<scene::PoseTrack>(); poses != nullptr && !poses->joint) {
+      row.erase("side");
+    }
+    if (const auto* shapes = track.get_if<scene::ShapesTrack>()) {
+      name_shapes(*shapes, row);
+    }
+    if (const auto* switched = track.get_if<scene::SwitchTrack>()) {
+      name_switch(*switched, row);
+    }
+  }
+
+  void name_shapes(const scene::ShapesTrack& track, Json& row) const {
+    for (const Index i : track.colliders) {
+      row["colliders"].push_back(scene_.colliders[i].path.str());
+    }
+    const auto& last = track.shapes.back();
+    row["lastMass"] = made([&](auto& sink) { put_number(sink, last.mass); });
+    row["lastCenterOfMass"] = made([&](auto& sink) { put_vector(sink, last.center_of_mass); });
+  }
+
+  template <class Other>
+  friend class Writer;
+
+  const References& references_;
   const PhysicsScene& scene_;
   Geometry geometry_;
-  std::map<std::pair<List, Path>, std::size_t> times_;
+  Sink& sink_;
 };
 
 }  // namespace
 
 Json scene_json_value(const PhysicsScene& scene, Geometry geometry) {
-  return Writer(scene, geometry).whole();
+  JsonValueSink sink;
+  const References references(scene);
+  Writer(references, geometry, sink).object(view_of(scene));
+  return sink.take();
 }
 
 std::string scene_json(const PhysicsScene& scene, Geometry geometry) {
-  return on_one_line(scene_json_value(scene, geometry));
+  const References references(scene);
+  std::string text;
+  {
+    JsonTextSink sink(-1, false, [&](std::string_view piece) { text += piece; });
+    Writer(references, geometry, sink).object(view_of(scene));
+  }
+  return text;
+}
+
+void write_scene_members(const PhysicsScene& scene, Geometry geometry, JsonTextSink& sink) {
+  const References references(scene);
+  Writer(references, geometry, sink).members(view_of(scene));
 }
 
 }  // namespace tenon::answers

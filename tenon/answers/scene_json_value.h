@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "tenon/answers/dump/json_sink.h"
 #include "tenon/answers/json.h"
 #include "tenon/answers/scene_json.h"
 
@@ -10,5 +11,8 @@
 namespace tenon::answers {
 
 Json scene_json_value(const scene::PhysicsScene& scene, Geometry geometry);
+
+/// Its members into an object that is open, without holding them all.
+void write_scene_members(const scene::PhysicsScene& scene, Geometry geometry, JsonTextSink& sink);
 
 }  // namespace tenon::answers
