@@ -31,6 +31,11 @@ Result<void> claim(const Globals& globals, const BakeArguments& options, Outputs
     return Error(ErrorCode::Invalid, "--simplify and --compress are of motions in a .glb file")
         .with_fix("name an output file that ends in .glb");
   }
+  if (options.makes_glb() && options.simulate.uninstance) {
+    return Error(ErrorCode::Invalid,
+                 "--uninstance is of layers alone: all bodies of a .glb file move")
+        .with_fix("leave it out, or name an output file that ends in .usda, .usdc or .usd");
+  }
   return outputs.claim(OutputKind::Motion, options.output);
 }
 

@@ -100,10 +100,17 @@ Result<void> check_kind(const Command& verb, const RecordArguments& arguments) {
     return refuse_given(verb, {"--time", "--panels"}, "pictures",
                         "name an output file that ends in .png");
   }
-  return refuse_given(verb, {"--duration", "--fps", "--speed", "--turn", "--codec", "--bitrate"},
-                      "films",
-                      "name an output file that ends in .webm or .mp4, or choose the moment of "
-                      "the picture with --time");
+  TENON_CHECK(refuse_given(
+      verb, {"--duration", "--fps", "--speed", "--turn", "--codec", "--bitrate"}, "films",
+      "name an output file that ends in .webm or .mp4, or choose the moment of "
+      "the picture with --time"));
+  if (verb.option("--time").given() || arguments.options.panels) {
+    return {};
+  }
+  return refuse_given(
+      verb, {"--engine", "--dt", "--integrator", "--solver", "--iterations", "--commands"},
+      "films and of pictures of a later moment",
+      "name a moment of the motion, since the start takes no steps, or leave it out");
 }
 
 Result<RecordOptions> options_of(const RecordArguments& arguments, Report& report) {

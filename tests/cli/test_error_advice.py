@@ -25,7 +25,7 @@ from test_advice import OPTION, OPTIONS, ROOT, TENON, VERB
 HERE = ROOT / "tests/cli"
 PLANTED = HERE / "error_advice"
 TYPED, BY_HAND = HERE / "error_advice.txt", HERE / "error_advice_by_hand.txt"
-BY_HAND_AT_MOST = 21
+BY_HAND_AT_MOST = 20
 # What a sentence of the help is an argument of.
 OF_HELP = re.compile(r"add_option|add_flag|\.option\(|description\(|footer\(|\.choice\(")
 # Where a printed command ends and its sentence goes on.

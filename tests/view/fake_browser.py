@@ -5,7 +5,8 @@
 as `tenon record` asks for, and answers with a picture or a film of its own.
 
 TENON_FAKE_BROWSER says what goes wrong: ends, hangs, crashes, garbage, webgl, codec, throws,
-message.
+message. TENON_FAKE_BROWSER_LOG is a file that gets what it was told, a line of JSON each: its
+arguments, the names of methods and the calls of `tenonRecord`.
 """
 
 import base64
@@ -16,9 +17,16 @@ import sys
 import time
 
 FAULT = os.environ.get("TENON_FAKE_BROWSER", "")
+LOG = os.environ.get("TENON_FAKE_BROWSER_LOG", "")
 PNG = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+A8AAQUBAScY42YAAAAASUVORK5CYII=")
 FILM = b"\x1aE\xdf\xa3" + bytes(range(256)) * 40
+
+
+def remember(kind, what):
+    if LOG:
+        with open(LOG, "a", encoding="utf-8") as file:
+            file.write(json.dumps([kind, what]) + "\n")
 
 
 class Browser:
@@ -34,6 +42,7 @@ class Browser:
         call = re.match(r"tenonRecord\.(\w+)\((.*)\)$", script, re.DOTALL)
         if not call:
             return True if "ready" in script else 0
+        remember("call", script)
         name, arguments = call[1], call[2]
         if name == "prepare" and FAULT == "webgl":
             return {"problem": "webgl"}
@@ -49,6 +58,7 @@ class Browser:
 
     def answer(self, message):
         method = message["method"]
+        remember("method", method)
         if method == "Runtime.evaluate":
             script = message["params"]["expression"]
             if "tenonRecord.prepare" in script:
@@ -76,6 +86,7 @@ class Browser:
                 self.say(id=message["id"], result=self.answer(message))
 
 
+remember("argv", sys.argv[1:])
 if FAULT == "ends":
     sys.exit("planted words")
 if FAULT == "hangs":
