@@ -427,6 +427,7 @@ Result<std::string> write_model(const scene::PhysicsScene& scene, const robot::R
                                 const scene::MujocoParts& parts, const NameOf& name_of,
                                 Diagnostics& diagnostics) {
   TENON_TRY(engines::mujoco::SpecAndModel built, make_model(scene, parts, diagnostics));
+  engines::mujoco::report_choices_of_runs(scene, built, diagnostics);
   if (!visuals.name.empty()) {
     mjs_setString(built.spec->modelname, visuals.name.c_str());
   }

@@ -21,6 +21,7 @@ using scene::Index;
 
 constexpr std::size_t kPeriod = 64;  // steps from one window to the next
 constexpr std::size_t kWindow = 8;   // steps of a window
+constexpr std::size_t kMany = 8;     // joints; of more a window has every other one
 constexpr int kChanges = 3;          // of sign in it: no motion of a robot takes five steps
 constexpr std::size_t kFewest = 3;   // windows in which a joint has shaken
 constexpr double kShakes = 5;        // degrees/s or mm/s in the mean; less is noise of the solver
@@ -94,6 +95,7 @@ void JointWatch::look(Watched& watched, std::size_t step_of_window) const {
   if (step_of_window < kWindow - 1) {
     return;
   }
+  ++watched.windows;
   const bool shakes =
       watched.changes >= kChanges &&
       watched.sum > kShakes * joint_unit(watched.angular) * static_cast<double>(kWindow);
@@ -120,8 +122,9 @@ void JointWatch::after_step() {
     return;
   }
   const std::size_t of_window = step + kWindow - kPeriod;
-  for (Watched& watched : joints_) {
-    look(watched, of_window);
+  const std::size_t apart = joints_.size() > kMany ? 2 : 1;
+  for (std::size_t i = windows_ % apart; i < joints_.size(); i += apart) {
+    look(joints_[i], of_window);
   }
   windows_ += of_window == kWindow - 1 ? 1 : 0;
 }
@@ -129,7 +132,7 @@ void JointWatch::after_step() {
 std::vector<JointFault> JointWatch::faults() const {
   std::vector<JointFault> found;
   for (const Watched& watched : joints_) {
-    if (watched.shaken >= kFewest && 2 * watched.shaken >= windows_) {
+    if (watched.shaken >= kFewest && 2 * watched.shaken >= watched.windows) {
       found.push_back({watched.joint, JointFault::Kind::Shakes, watched.angular, watched.fastest});
     }
     const std::vector<double> position = simulation_.joint_state(watched.joint).position;
@@ -152,8 +155,9 @@ std::vector<JointFault> JointWatch::faults() const {
 void JointWatch::find_sagging(std::vector<JointFault>& found) const {
   std::vector<double> loads;
   for (const Watched& watched : joints_) {
-    const bool rests = watched.still >= kStillWindows && 4 * watched.still >= windows_;
-    const bool too_weak = watched.saturated >= kStillWindows && 2 * watched.saturated >= windows_;
+    const bool rests = watched.still >= kStillWindows && 4 * watched.still >= watched.windows;
+    const bool too_weak =
+        watched.saturated >= kStillWindows && 2 * watched.saturated >= watched.windows;
     if (!watched.holds || !(rests || too_weak)) {
       continue;
     }

@@ -28,7 +28,8 @@ struct JointFault {
 /// One degree or one millimetre [rad or m]: what coordinates are told in.
 double joint_unit(bool angular);
 
-/// Looks at joints after each step of a run, at eight steps of 64.
+/// Looks at joints after each step of a run, at eight steps of 64; where there are more than eight,
+/// at every other one.
 class JointWatch {
  public:
   /// Its arguments must outlive it. `steered`: targets are set during the run, so that no drive is
@@ -52,6 +53,7 @@ class JointWatch {
     double sum = 0;   ///< of speeds
     double top = 0;   ///< the largest
     // So far:
+    std::size_t windows = 0;    ///< at whose end it was looked at
     std::size_t shaken = 0;     ///< windows in which it shook
     double fastest = 0;         ///< in those
     double target = 0;          ///< of that drive, within the limits
@@ -66,7 +68,7 @@ class JointWatch {
   const scene::PhysicsScene& scene_;
   std::vector<Watched> joints_;
   std::size_t steps_ = 0;
-  std::size_t windows_ = 0;
+  std::size_t windows_ = 0;  ///< so far, of all joints
 };
 
 }  // namespace tenon::watches

@@ -13,7 +13,7 @@ namespace {
 
 using scene::Index;
 
-constexpr std::size_t kSpinPeriod = 16;  // steps between looks
+constexpr std::size_t kSpinPeriod = 32;  // steps between looks
 constexpr double kSlow = 0.01;           // [rad] in a step: too slow for any error
 constexpr double kLeastWobble = 1e-3;    // of the spin
 constexpr double kTold = 0.05;

@@ -13,6 +13,11 @@ namespace tenon::engines::mujoco {
 Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
                                     const SimulationOptions& options, Diagnostics& diagnostics);
 
+/// What runs choose for stiff drives and springs of `scene`, and a model made of it for text has
+/// not; its actuators may be written elsewhere.
+void report_choices_of_runs(const scene::PhysicsScene& scene, const SpecAndModel& built,
+                            Diagnostics& diagnostics);
+
 /// A compiled model as text.
 Result<std::string> text_of(const mjSpec& spec);
 

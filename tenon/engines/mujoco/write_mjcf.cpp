@@ -12,6 +12,7 @@
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/option_fields.h"
+#include "tenon/engines/mujoco/build/stiffness.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_library.h"
 #include "tenon/engines/mujoco/writable_model.h"
@@ -97,6 +98,18 @@ void report_what_runs_do(const scene::PhysicsScene& scene, Diagnostics& diagnost
       report_lost(material.path, "compliance", "contacts as springs are", diagnostics);
     }
   }
+}
+
+/// Where a drive of the scene acts, in a model that may be without its actuator; -1: nowhere.
+int dof_of_drive(const scene::PhysicsScene& scene, const Model& model, const DriveMap& map) {
+  const JointMap& joint = model.joints[map.joint];
+  const scene::Drive& drive = scene.joints[map.joint].drives[map.drive];
+  for (std::size_t i = 0; i < joint.dofs.free.size() && i < joint.dof.size(); ++i) {
+    if (joint.dofs.free[i].dof == drive.dof && drive.max_force > 0) {
+      return joint.dof[i];
+    }
+  }
+  return -1;
 }
 
 bool has_springs(const scene::PhysicsScene& scene) {
@@ -186,6 +199,35 @@ Result<std::string> text_of(const mjSpec& spec) {
   return text;
 }
 
+void report_choices_of_runs(const scene::PhysicsScene& scene, const SpecAndModel& built,
+                            Diagnostics& diagnostics) {
+  const Model& model = built.model;
+  const double time_step = model.model->opt.timestep;
+  if (names_integrator(scene)) {
+    return;
+  }
+  std::vector<int> stiff;
+  for (std::size_t i = 0; i < model.drives.size(); ++i) {
+    DriveMap map = model.drives[i];
+    map.dof = dof_of_drive(scene, model, map);
+    if (map.dof >= 0 && is_stiff_drive(scene, model, map, time_step)) {
+      stiff.push_back(static_cast<int>(i));
+    }
+  }
+  report_drives(scene, model, stiff,
+                {Severity::Warning, "mujoco.not-mapped",
+                 "the drive is stiff for the step: tenon's own runs solve it together with the "
+                 "constraints, and the model has it as an actuator, which moves otherwise",
+                 "drive"},
+                diagnostics);
+  if (const std::optional<scene::Index> spring = stiff_spring(model, time_step)) {
+    diagnostics.add({Severity::Warning, "mujoco.not-mapped",
+                     "the spring is stiff for the step: tenon's own runs take MuJoCo's integrator "
+                     "discrete, which older versions do not know; the model has implicitfast",
+                     scene.joints[*spring].path.str(), "stiffness", kOwnIntegrator});
+  }
+}
+
 Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
                                     const SimulationOptions& options, Diagnostics& diagnostics) {
   SimulationOptions exact = options;
@@ -202,6 +244,7 @@ Result<SpecAndModel> writable_model(const scene::PhysicsScene& scene,
 Result<std::string> write_mjcf(const scene::PhysicsScene& scene, const SimulationOptions& options,
                                Diagnostics& diagnostics) {
   TENON_TRY(const SpecAndModel built, writable_model(scene, options, diagnostics));
+  report_choices_of_runs(scene, built, diagnostics);
   return text_of(*built.spec);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/engines/mujoco/write_mjcf.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tenon/engines/mujoco/test_scene.h"
@@ -66,6 +67,23 @@ TEST(WriteMjcf, PlainDrivesMoveAsThoseOfRuns) {
       EXPECT_GT(std::fabs(plain->model.data->qpos[0]), 0.1);
     }
   }
+}
+
+TEST(WriteMjcf, ADriveThatRunsSolveWithConstraintsIsTold) {
+  const auto told = [](const TestScene& scene) {
+    Diagnostics findings;
+    text_of_scene(scene, findings);
+    return std::count_if(findings.begin(), findings.end(), [](const Diagnostic& finding) {
+      return finding.severity == Severity::Warning && finding.property == "drive" &&
+             finding.prim == "/Pivot";
+    });
+  };
+  TestScene stiff = arm(drive(Dof::RotY, 5000, 500));
+  EXPECT_EQ(told(stiff), 1);
+  EXPECT_EQ(told(arm(drive(Dof::RotY, 20, 1))), 0);
+  stiff.scenes.front().parts.mujoco =
+      std::vector<scene::VendorSetting>{{"option:integrator", {}, "implicitfast"}};
+  EXPECT_EQ(told(stiff), 0);  // runs have an actuator then, too
 }
 
 TEST(WriteMjcf, EffortsWithoutGainsAreLimitsOfJoints) {

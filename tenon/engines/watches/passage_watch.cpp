@@ -22,8 +22,10 @@ using scene::PhysicsScene;
 using scene::Shape;
 using scene::ShapeKind;
 
-constexpr std::size_t kStepsBetween = 8;  // looks at all bodies
-constexpr int kStepsBehind = 2;           // until no contact pushes it back any more
+constexpr std::size_t kStepsBetween = 8;  // looks at all bodies,
+constexpr std::size_t kCalmSteps = 32;    // where each is slower than this part of a fast one
+constexpr double kCalm = 0.25;
+constexpr int kStepsBehind = 2;  // until no contact pushes it back any more
 constexpr std::size_t kMostTold = 100;
 constexpr double kShortestWay = 1e-6;  // [m]
 
@@ -129,13 +131,18 @@ void PassageWatch::list_bodies(const PhysicsScene& scene) {
 }
 
 void PassageWatch::look_for_fast(const Simulation& simulation) {
+  next_look_ = steps_ + kCalmSteps;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Watched& watched = bodies_[i];
     if (watched.fast) {
       continue;
     }
-    const Vec3d velocity = simulation.body_state(watched.body).linear_velocity;
-    if (length(velocity) * simulation.time_step() > watched.way) {
+    const double way =
+        length(simulation.body_state(watched.body).linear_velocity) * simulation.time_step();
+    if (way > kCalm * watched.way) {
+      next_look_ = steps_ + kStepsBetween;
+    }
+    if (way > watched.way) {
       watched.fast = true;
       watched.center = simulation.center_of_mass(watched.body);
       fast_.push_back(i);
@@ -165,7 +172,7 @@ std::vector<Event> PassageWatch::end(const Simulation& simulation, const Physics
     watched.center = now;
     return !watched.fast;
   });
-  if (++steps_ % kStepsBetween == 0) {
+  if (++steps_ >= next_look_) {
     look_for_fast(simulation);
   }
   return found;

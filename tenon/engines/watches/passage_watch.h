@@ -12,7 +12,8 @@
 namespace tenon::engines {
 
 /// Looks at bodies on no joint. One that comes to move by more than half of its thinnest side in a
-/// step is found within eight steps, and is looked at in each from then on.
+/// step is found within eight steps, 32 where none came near that speed before, and is looked at in
+/// each from then on.
 class PassageWatch {
  public:
   /// What was set from outside, which moves bodies outside of steps.
@@ -51,7 +52,8 @@ class PassageWatch {
   std::vector<Passage> open_;
   std::vector<std::pair<scene::Index, scene::Index>> told_;  ///< body and collider
   std::size_t steps_ = 0;
-  bool fresh_ = true;  ///< nothing is known of where bodies were
+  std::size_t next_look_ = 0;  ///< at all bodies, in steps
+  bool fresh_ = true;          ///< nothing is known of where bodies were
 };
 
 /// The event of a body that passed a collider within a step in which it moved by `way` [m].

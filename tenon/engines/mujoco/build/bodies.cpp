@@ -36,9 +36,11 @@ void obey_triangle(Build& build, const scene::Body& body, Vec3d& moments) {
     return;
   }
   if (*largest > others * (1 + kFloatRounding)) {
-    build.report(body.path, "physics:diagonalInertia",
-                 "one principal moment of inertia is larger than the other two together, which no "
-                 "body has and MuJoCo's compiler refuses; it is lowered to their sum");
+    build.diagnostics.add(
+        {Severity::Warning, "mujoco.not-mapped",
+         "one principal moment of inertia is larger than the other two together, which no body "
+         "has and MuJoCo's compiler refuses: it is lowered to their sum; tenon's own runs keep it",
+         body.path.str(), "physics:diagonalInertia", "give the body an inertia that bodies have"});
   }
   *largest = others;
 }

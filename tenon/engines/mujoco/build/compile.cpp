@@ -14,20 +14,13 @@
 #include <vector>
 
 #include "tenon/engines/mujoco/build/build.h"
+#include "tenon/engines/mujoco/build/stiffness.h"
 #include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/coupled_drives.h"
-#include "tenon/engines/start_coordinates.h"
 
 namespace tenon::engines::mujoco {
 namespace {
-
-// Above these a step must be implicit:
-constexpr double kStiffSpring = 0.5;  // stiffness dt^2 / inertia
-constexpr double kStiffDrive = 1;     // and damping dt / inertia with it
-constexpr const char* kOwnIntegrator =
-    "mjc:option:integrator of MjcSceneAPI on the physics scene wins over this choice";
-constexpr double kFarInAStep = 0.02;  // [rad or m] with the largest force
 
 Error rejected(mjSpec* spec) {
   const char* words = mjs_getError(spec);
@@ -244,64 +237,23 @@ void stiffen_auxiliary_welds(const Build& build, Model& result) {
   }
 }
 
-bool begins_at_its_largest_force(const Build& build, const Model& result, const DriveMap& map) {
-  const scene::Joint& joint = build.scene.joints[map.joint];
-  const scene::Drive& drive = joint.drives[map.drive];
-  Diagnostics silent;
-  const scene::JointDofs& dofs = result.joints[map.joint].dofs;
-  const std::vector<double> start = start_coordinates(build.scene, joint, dofs, silent);
-  for (std::size_t i = 0; i < dofs.free.size() && i < start.size(); ++i) {
-    if (dofs.free[i].dof == drive.dof) {
-      return drive.stiffness * std::fabs(drive.target_position - start[i]) > drive.max_force;
-    }
-  }
-  return false;
-}
-
-/// Whether steps that are implicit in velocity alone are too coarse for a drive: its spring or its
-/// damper is stiff against the inertia, so that loops, limits and contacts would have to hold a
-/// force of which the damper leaves little, or it begins at its largest force, where the damper
-/// does not act, and a step with that goes far.
 bool is_stiff(const Build& build, const Model& result, const DriveMap& map) {
-  const scene::Drive& drive = build.scene.joints[map.joint].drives[map.drive];
-  const double step = build.time_step;
-  const double per_inertia = drive.acceleration ? 1 : result.model->dof_invweight0[map.dof];
-  const double spring = drive.stiffness * step * step * per_inertia;
-  return spring + drive.damping * step * per_inertia > kStiffDrive ||
-         (spring > kStiffSpring && drive.max_force * step * step * per_inertia > kFarInAStep &&
-          begins_at_its_largest_force(build, result, map));
+  return is_stiff_drive(build.scene, result, map, build.time_step);
 }
 
-/// The first joint with a drive or a spring that is stiff against its inertia and the step.
+/// The first joint with a spring that is stiff, or with such a drive that is not coupled.
 std::optional<scene::Index> stiff_joint(const Build& build, const Model& result) {
-  const mjModel& m = *result.model;
   for (const DriveMap& map : result.drives) {
     if (map.actuator >= 0 && map.tendon < 0 && is_stiff(build, result, map)) {
       return map.joint;
     }
   }
-  const double squared_step = build.time_step * build.time_step;
-  for (scene::Index j = 0; j < result.joints.size(); ++j) {
-    std::vector<int> dofs = result.joints[j].dof;
-    if (result.joints[j].ball_dof >= 0) {
-      dofs.push_back(result.joints[j].ball_dof);
-    }
-    for (const int dof : dofs) {
-      if (m.jnt_stiffness[m.dof_jntid[dof]] * squared_step * m.dof_invweight0[dof] > kStiffSpring) {
-        return j;
-      }
-    }
-  }
-  return std::nullopt;
+  return stiff_spring(result, build.time_step);
 }
 
 /// Neither the asset nor the user asks for an integrator.
 bool is_free_to_choose(const Build& build) {
-  const auto& settings = build.scene.scenes.front().parts.mujoco;
-  const bool authored = settings && std::any_of(settings->begin(), settings->end(), [](auto& each) {
-                          return each.name == "option:integrator";
-                        });
-  return !authored && build.methods.integrator == Integrator::Default &&
+  return !names_integrator(build.scene) && build.methods.integrator == Integrator::Default &&
          build.drive_terms == DriveTerms::Engine;
 }
 
@@ -309,20 +261,13 @@ void report_coupled(const Build& build, const Model& result, const std::vector<i
   if (coupled.empty()) {
     return;
   }
-  const auto joint_of = [&](int drive) {
-    return build.scene.joints[result.drives[static_cast<std::size_t>(drive)].joint].path;
-  };
   char text[160];
   std::snprintf(text, sizeof text,
                 "the drive is stiff for steps of %.4g s; MuJoCo takes it where the step ends, "
                 "together with the constraints",
                 build.time_step);
-  Message message = text;
-  for (std::size_t i = 1; i < coupled.size(); ++i) {
-    message.about(joint_of(coupled[i]), RelatedRole::Joint);
-  }
-  build.diagnostics.add({Severity::Info, "mujoco.coupled-drive", message,
-                         joint_of(coupled.front()).str(), "", kOwnIntegrator});
+  report_drives(build.scene, result, coupled, {Severity::Info, "mujoco.coupled-drive", text, ""},
+                build.diagnostics);
 }
 
 /// Drives that are stiff are solved with constraints, where the method can.
@@ -402,8 +347,8 @@ Result<Model> compile(Build& build) {
   soften_bounds(build, *model);
   if (build.purpose == Purpose::Run) {
     couple_drives(build, result);
+    choose_integrator(build, result);
   }
-  choose_integrator(build, result);
   return result;
 }
 
