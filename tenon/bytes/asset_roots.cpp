@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Robots keep their parts in folders of a few usual names. Which of them a description may read
+// depends on where it is itself, links resolved, never on what it says: those next to it and a few
+// folders up, and in a Python package those of the whole package, since its robots share them. The
+// package is found by the files that Python wants to see there, and nothing outside of it counts.
 #include "tenon/bytes/asset_roots.h"
 
 #include <algorithm>
@@ -61,6 +66,41 @@ std::optional<std::string> structured_asset_of(const fs::path& folder) {
   return std::nullopt;
 }
 
+/// The Python package that a folder lies in: the outermost folder of a chain with an __init__.py in
+/// each, of which the nearest is at most kPythonPackageLevels above the folder.
+std::optional<fs::path> python_package_of(const Files& files, const fs::path& folder) {
+  const auto is_one = [&files](const fs::path& at) {
+    return at != at.parent_path() && files->kind((at / "__init__.py").string()) == NameKind::File;
+  };
+  fs::path at = folder;
+  for (std::size_t i = 0; i < limits::kPythonPackageLevels && !is_one(at); ++i) {
+    at = at.parent_path();
+  }
+  if (!is_one(at)) {
+    return std::nullopt;
+  }
+  while (is_one(at.parent_path())) {
+    at = at.parent_path();
+  }
+  return at;
+}
+
+/// The first folder of parts below `package` on the way to `file`.
+std::optional<std::string> parts_folder_in_package(const fs::path& package, const fs::path& file) {
+  const fs::path way = file.lexically_relative(package).parent_path();
+  if (way.empty() || *way.begin() == "..") {
+    return std::nullopt;
+  }
+  fs::path folder = package;
+  for (const fs::path& part : way) {
+    folder /= part;
+    if (is_parts_name(part.string())) {
+      return folder.string();
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::shared_ptr<const FileBytes> package_xml_of(const Files& files, const std::string& folder) {
@@ -114,7 +154,8 @@ std::optional<std::string> parts_folder(const Files& files, const std::string& p
       return folder;
     }
   }
-  return std::nullopt;
+  const auto package = python_package_of(files, fs::path(files->real_path(path)).parent_path());
+  return package ? parts_folder_in_package(*package, real) : std::nullopt;
 }
 
 }  // namespace tenon::bytes

@@ -28,7 +28,9 @@ std::shared_ptr<const FileBytes> package_xml_of(const Files& files, const std::s
 /// The folder in which robot formats by convention keep `file`, a part of the description at
 /// `path`: a folder of meshes, textures or assets beside the description's own folder, or above it
 /// by up to kPartsFolderLevels: robot/urdf/arm.urdf uses robot/meshes, assets/hand/reach.xml uses
-/// assets/stls/hand. None for files elsewhere. Links are judged by where they lead.
+/// assets/stls/hand. Also such a folder anywhere in the Python package that the description lies in
+/// (the folders above it with an __init__.py): pkg/robots/arm/arm.urdf uses
+/// pkg/robots/hands/left/meshes. None for files elsewhere. Links are judged by where they lead.
 std::optional<std::string> parts_folder(const Files& files, const std::string& path,
                                         const std::string& file);
 

@@ -20,12 +20,26 @@ class AssetRoots : public testing::Test {
   void SetUp() override {
     root_ = fs::canonical(testing::TempDir()) / ("roots_" + std::to_string(::getpid()));
     fs::remove_all(root_);
-    for (const char* name :
-         {"pkg/package.xml", "pkg/urdf/deep/r.urdf", "pkg/meshes/m.stl", "hand/hand.usda",
-          "hand/payloads/base.usda", "hand/payloads/Physics/physx.usda", "other/package.xml",
-          "assets/hand/reach.xml", "assets/stls/hand/a.stl", "assets/notes.txt",
-          "arms/fingers/meshes/f.obj", "arms/gripper/g.urdf", "private/x/meshes/m.obj",
-          "secret/s.png"}) {
+    for (const char* name : {"pkg/package.xml",
+                             "pkg/urdf/deep/r.urdf",
+                             "pkg/meshes/m.stl",
+                             "hand/hand.usda",
+                             "hand/payloads/base.usda",
+                             "hand/payloads/Physics/physx.usda",
+                             "other/package.xml",
+                             "assets/hand/reach.xml",
+                             "assets/stls/hand/a.stl",
+                             "assets/notes.txt",
+                             "lib/two/__init__.py",
+                             "lib/two/robots/__init__.py",
+                             "lib/two/robots/body/one/r.urdf",
+                             "lib/two/robots/hands/left/meshes/h.obj",
+                             "lib/two/robots/hands/left/data/d.obj",
+                             "lib/others/hands/left/meshes/o.obj",
+                             "arms/fingers/meshes/f.obj",
+                             "arms/gripper/g.urdf",
+                             "private/x/meshes/m.obj",
+                             "secret/s.png"}) {
       fs::create_directories((root_ / name).parent_path());
       ASSERT_TRUE(write_file(at(name), name == std::string("pkg/package.xml")
                                            ? "<?xml version=\"1.0\"?>\n<package format=\"2\"/>"
@@ -65,6 +79,18 @@ TEST_F(AssetRoots, PartsLieBesideTheDescription) {
       at("assets/stls"));
   EXPECT_EQ(parts_folder(Files(), at("arms/gripper/g.urdf"), at("arms/fingers/meshes/f.obj")),
             at("arms/fingers/meshes"));
+}
+
+TEST_F(AssetRoots, APythonPackageSharesItsFoldersOfParts) {
+  const std::string robot = at("lib/two/robots/body/one/r.urdf");
+  EXPECT_EQ(parts_folder(Files(), robot, at("lib/two/robots/hands/left/meshes/h.obj")),
+            at("lib/two/robots/hands/left/meshes"));
+  EXPECT_EQ(parts_folder(Files(), robot, at("lib/two/robots/hands/left/data/d.obj")), std::nullopt);
+  EXPECT_EQ(parts_folder(Files(), robot, at("lib/others/hands/left/meshes/o.obj")), std::nullopt);
+  fs::remove(at("lib/two/robots/__init__.py"));  // the chain begins at the nearest
+  fs::remove(at("lib/two/__init__.py"));
+  EXPECT_EQ(parts_folder(Files(), robot, at("lib/two/robots/hands/left/meshes/h.obj")),
+            std::nullopt);
 }
 
 TEST_F(AssetRoots, WhatIsNoPartOfARobotIsNot) {

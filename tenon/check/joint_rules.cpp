@@ -3,9 +3,9 @@
 //
 // Limits and frame rotations are judged as the file has them, before units are converted and
 // quaternions normalised. A round angle in radians, or three and more closed limits that all span
-// at most 2 pi, look like radians. The other rules use the scene, where angles are compared modulo
-// a turn. Driven joints without a root are counted by islands, the bodies that joints of trees and
-// loops hold together.
+// at most 2 pi, look like radians; degrees times 57.3 look like a conversion too many. The other
+// rules use the scene, where angles are compared modulo a turn. Driven joints without a root are
+// counted by islands, the bodies that joints of trees and loops hold together.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +14,7 @@
 
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
+#include "tenon/math/meant_degrees.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/scene/about_bodies.h"
 #include "tenon/scene/joint_forest.h"
@@ -61,6 +62,10 @@ struct AuthoredLimits {
   double lower = -INFINITY;
   double upper = INFINITY;
   bool closed() const { return std::isfinite(lower) && std::isfinite(upper); }
+  /// Converted once more: of a hinge.
+  bool are_degrees() const {
+    return closed() && degrees_were_meant(lower * kRadians, upper * kRadians);
+  }
 };
 
 AuthoredLimits limits_of(const stage::Prim& prim) {
@@ -202,13 +207,30 @@ void check_radian_limits(const Subject& subject, Reporter& report) {
   }
 }
 
+// S-13: the opposite, degrees that a converter took for radians.
+void check_degree_limits(const Subject& subject, Reporter& report) {
+  for (const Joint& joint : subject.scene.joints) {
+    const AuthoredLimits limits = limits_of(prim_of(subject, joint));
+    if (joint.kind != JointKind::Revolute || !limits.are_degrees()) {
+      continue;
+    }
+    const std::string lower = digits(limits.lower * kRadians);
+    const std::string upper = digits(limits.upper * kRadians);
+    report.at(prim_of(subject, joint), kLower,
+              "the limits " + digits(limits.lower) + " and " + digits(limits.upper) +
+                  " degrees are " + lower + " and " + upper +
+                  " radians, which look like degrees that were converted once more",
+              "author " + lower + " and " + upper + " if those degrees were meant");
+  }
+}
+
 // S-99
 void check_multi_turn(const Subject& subject, Reporter& report) {
   for (const Joint& joint : subject.scene.joints) {
     const AuthoredLimits limits = limits_of(prim_of(subject, joint));
     const bool beyond = (std::isfinite(limits.lower) && limits.lower < -360) ||
                         (std::isfinite(limits.upper) && limits.upper > 360);
-    if (joint.kind == JointKind::Revolute && beyond) {
+    if (joint.kind == JointKind::Revolute && beyond && !limits.are_degrees()) {
       report.at(prim_of(subject, joint), kLower,
                 "the limits reach beyond a turn; PhysX clamps them to 360 degrees",
                 "leave the limits open if the joint turns freely");

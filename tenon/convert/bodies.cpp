@@ -3,13 +3,15 @@
 //
 // Engines weigh a body that nothing gives a mass as one unit, which makes hands of 0.5 kg weigh 6.
 // A link without mass is therefore no body where that can be, has its colliders' mass where it has
-// some, and else a share of a neighbour's mass that is too small to change a motion.
+// some (at the density that the options give), and else a share of a neighbour's mass that is too
+// small to change a motion.
 #include "tenon/convert/bodies.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "tenon/base/text/rounded_text.h"
 #include "tenon/convert/prepare_joints.h"
 #include "tenon/math/inertia.h"
 
@@ -89,8 +91,19 @@ void write_share(RobotLayer& layer, const LinkPrim& prim, const robot::Link& lin
 }
 
 /// A moving link that the description gives no mass.
-void write_no_mass(RobotLayer& layer, const robot::RobotModel& model, const LinkPrim& prim,
+void write_no_mass(RobotLayer& layer, const Source& source, const LinkPrim& prim,
                    const robot::Link& link) {
+  const robot::RobotModel& model = source.model;
+  if (source.options.density && !link.colliders.empty()) {
+    layer.builder().apply(prim.path, "PhysicsMassAPI");
+    layer.builder().set_number(prim.path, "PhysicsMassAPI", "physics:density",
+                               *source.options.density);
+    layer.report(link.place, Severity::Info, "convert.no-mass",
+                 "the link \"" + link.name + "\" moves and has no mass; it gets that of its " +
+                     "colliders at " + rounded_text(*source.options.density) + " kg/m^3",
+                 "give it an inertial");
+    return;
+  }
   if (prim.mass_of && link.colliders.empty()) {
     write_share(layer, prim, link, model.links[*prim.mass_of]);
     return;
@@ -121,10 +134,12 @@ void write_frame(RobotLayer& layer, const LinkPrim& prim, const robot::Link& lin
 void write_own_mass(RobotLayer& layer, Path path, const robot::Link& link) {
   write_mass(layer.builder(), path, *link.inertial);
   if (link.inertial->inertia == Mat3d{}) {
-    layer.report(link.place, Severity::Info, "convert.no-inertia",
-                 "the link \"" + link.name +
-                     "\" has a mass and no inertia; engines take that of its colliders",
-                 "give it an inertia");
+    const std::string source = link.colliders.empty()
+                                   ? "and it has no colliders to take one of: engines choose one"
+                                   : "engines take that of its colliders";
+    layer.report(link.place, Severity::Warning, "convert.no-inertia",
+                 "the link \"" + link.name + "\" has a mass and no inertia; " + source,
+                 "give it an inertia [kg m^2]");
   }
 }
 
@@ -165,7 +180,7 @@ void write_body(const Source& source, const LinkPrims& links, Index number, Robo
   } else if (!above && links.carried) {
     write_root_share(layer, prim.path, link, model.links[*links.carried]);
   } else {
-    write_no_mass(layer, model, prim, link);
+    write_no_mass(layer, source, prim, link);
   }
   layer.builder().apply(prim.path, "IsaacLinkAPI");
   if (link.gravity_scale != 1) {

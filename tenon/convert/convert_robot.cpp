@@ -13,6 +13,7 @@
 #include "tenon/convert/prepare_joints.h"
 #include "tenon/convert/robot_layer.h"
 #include "tenon/convert/robot_metadata.h"
+#include "tenon/convert/rules/apply_rules.h"
 #include "tenon/convert/sensors.h"
 #include "tenon/convert/shapes/material_writer.h"
 #include "tenon/convert/shapes/shape_writer.h"
@@ -56,9 +57,11 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
 
 }  // namespace
 
-Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
+Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& given,
                                    Diagnostics& diagnostics, InnerImages* images) {
   TENON_TRY(robot::KinematicTree tree, robot::kinematic_tree(model));
+  ConvertOptions options = given;
+  TENON_CHECK(apply_rules(model, options));
   robot::sanitize_model(model, diagnostics);
   if (options.merge_fixed) {
     drop_merged_sensors(model, diagnostics);

@@ -6,11 +6,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/read_policy.h"
+#include "tenon/convert/rules/name_rule.h"
 #include "tenon/layer/layer.h"
+#include "tenon/robot/approximation.h"
 
 namespace tenon::robot {
 struct RobotModel;
@@ -54,8 +57,15 @@ struct ConvertOptions {
   /// places for texts on the robot and its joints, urdf:limit:* as floats, soft mimics in PhysX.
   bool tutorial = false;
   std::optional<Gains> gains;                ///< a drive for each joint that leads
-  std::map<std::string, Gains> joint_gains;  ///< by joint, before `gains`
-  bytes::ReadPolicy reading;                 ///< where meshes and images may lie
+  std::map<std::string, Gains> joint_gains;  ///< by joint, before `gain_rules`
+  std::vector<NameRule<Gains>> gain_rules;   ///< of joints, before `gains`
+  std::vector<NameRule<double>> armature;    ///< of joints with one axis [kg m^2 or kg]
+  std::vector<NameRule<double>> friction;    ///< the same, Coulomb [N m or N]
+  /// Of meshes that collide, by link; others are as hulls.
+  std::vector<NameRule<robot::Approximation>> collision;
+  /// Of links that move without a mass and have colliders [kg/m^3]; not given: engines choose.
+  std::optional<double> density;
+  bytes::ReadPolicy reading;  ///< where meshes and images may lie
 };
 
 /// Bytes of images that lie inside mesh files (.glb), by the asset path that names them: "<mesh
@@ -77,7 +87,8 @@ using InnerImages = std::map<std::string, std::string>;
 /// it has no colliders. Mesh files are read; texture paths are those of the model; those inside of
 /// mesh files are in `images` and are no files yet. Files from outside of `reading` are skipped, so
 /// are textures that are no images: errors of `diagnostics` say so. Faults that drop something out
-/// go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be nested (Limit).
+/// go to `diagnostics`. Errors: what is no tree (Invalid), a chain too long to be nested (Limit), a
+/// rule of the options that matches nothing (NotFound "convert.no-match") or is none (Invalid).
 Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions& options,
                                    Diagnostics& diagnostics, InnerImages* images = nullptr);
 

@@ -108,7 +108,10 @@ void expect_settings(const Converted& robot, const std::string& mimic_schema) {
   EXPECT_NEAR(j.damping, 0.25, kFloat);
   EXPECT_EQ(j.friction, 0.125);
   const scene::Joint& k = robot.joint("k");
-  EXPECT_TRUE(k.drives.empty());
+  ASSERT_EQ(k.drives.size(), 1u);  // for its effort
+  EXPECT_EQ(k.drives[0].max_force, 1);
+  EXPECT_EQ(k.drives[0].stiffness, 0);
+  EXPECT_EQ(k.drives[0].damping, 0);
   ASSERT_EQ(k.mimics.size(), 1u);
   const scene::Mimic& mimic = k.mimics.front();
   EXPECT_EQ(mimic.schema, mimic_schema);
@@ -132,6 +135,21 @@ TEST(ConvertRobot, SaysTheSameInEverySchema) {
     options.schema = SchemaGeneration::Legacy;
     expect_settings(convert(text, options), "PhysxMimicJointAPI");
   }
+}
+
+TEST(ConvertRobot, GivesJointsWhatTheirNamesMatch) {
+  ConvertOptions options;
+  options.gains = Gains{100, 10};
+  options.gain_rules = {{"j|base", {50, 5}}};
+  options.armature = {{"", 0.5}, {"[k]", 0.25}};
+  options.friction = {{"j", 0.75}};
+  const std::string text = mimic_robot("revolute", "revolute");
+  const Converted robot = convert(text, options);
+  EXPECT_NEAR(robot.joint("j").drives.at(0).stiffness, 50, 1e-5);
+  EXPECT_EQ(robot.joint("j").armature, 0.5);
+  EXPECT_EQ(robot.joint("k").armature, 0.25);
+  EXPECT_EQ(robot.joint("j").friction, 0.75);
+  EXPECT_EQ(robot.joint("k").friction, 0);
 }
 
 TEST(ConvertRobot, GivesGainsPerRadianToMuJoCoAndPerDegreeToDrives) {

@@ -5,7 +5,8 @@
 // schema's unit. NewtonJointAPI, PhysxJointAxisAPI and MjcJointAPI are applied only where they have
 // a number to hold. PhysX's gearing and offset have the opposite sign of Newton's coefficients.
 // Powers of a mimic above the first have no place in NewtonMimicAPI and are written by MuJoCo's
-// schema beside it. A follower gets neither drive nor actuator.
+// schema beside it. A follower gets no actuator, and a drive without gains for its limit of effort
+// alone, as Isaac Sim's importer gives it one.
 #include "tenon/convert/joint_schemas.h"
 
 #include <cmath>
@@ -58,15 +59,17 @@ void JointPrinter::print_limits() {
   builder_.set_number(path_, type, "physics:upperLimit", position(joint_.limit->upper));
 }
 
-/// A joint that leads gets a drive where there are gains or a limit of effort.
+/// A joint gets a drive where there are gains or a limit of effort. What follows another joint is
+/// not driven: its drive says the effort.
 void JointPrinter::print_drive() {
-  if (joint_.mimic || (!joint_.drive && std::isinf(joint_.effort_limit))) {
+  const robot::Drive drive = joint_.mimic ? robot::Drive{} : joint_.drive.value_or(robot::Drive{});
+  const bool driven = joint_.drive && !joint_.mimic;
+  if (!driven && std::isinf(joint_.effort_limit)) {
     return;
   }
   const std::string instance = angular() ? "angular" : "linear";
   const Token api("PhysicsDriveAPI:" + instance);
   const std::string prefix = "drive:" + instance + ":physics:";
-  const robot::Drive drive = joint_.drive.value_or(robot::Drive{});
   builder_.apply(path_, api);
   builder_.set_number(path_, api, prefix + "damping", gain(drive.damping));
   if (std::isfinite(joint_.effort_limit)) {

@@ -146,6 +146,38 @@ TEST(MendModel, GivesEveryAxisAnInertia) {
   EXPECT_EQ(model.links[1].inertial->inertia, Mat3d{});
 }
 
+TEST(MendModel, LiftsOnlyTheMomentThatIsZero) {
+  RobotModel model = four_links();
+  model.links[0].inertial->inertia = diagonal_matrix({{0.004, 0.004, 0}});
+  model.links[1].inertial->inertia = diagonal_matrix({{0.004, 0, 0.003}});
+  EXPECT_EQ(mended(model), "robot.inertia-not-positive;robot.inertia-not-positive;");
+  EXPECT_EQ(model.links[0].inertial->inertia, diagonal_matrix({{0.004, 0.004, 1e-3 * 0.004}}));
+  EXPECT_NEAR(model.links[1].inertial->inertia[1][1], 0.001, 1e-15);
+  EXPECT_EQ(model.links[1].inertial->inertia[2][2], 0.003);
+}
+
+TEST(MendModel, NamesLimitsThatLookLikeDegrees) {
+  RobotModel model = four_links();
+  model.joints[1].limit = Limit{-90, 90};
+  EXPECT_EQ(mended(model), "robot.limits-in-degrees;");
+  EXPECT_EQ(model.joints[1].limit->upper, 90);
+  for (const double turn : {6.28, 9.42, 10.0, 31.4, 1000.0}) {
+    model.joints[1].limit = Limit{-turn, turn};
+    EXPECT_EQ(mended(model), "") << turn;
+  }
+}
+
+TEST(MendModel, AVisualThatNobodySeesIsNoFault) {
+  RobotModel model = four_links();
+  Geometry marker;
+  model.links[0].visuals.push_back({"", {}, marker, {}, {}});
+  Diagnostics diagnostics;
+  sanitize_model(model, diagnostics);
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_EQ(diagnostics.begin()->severity, Severity::Info);
+  EXPECT_TRUE(model.links[0].visuals.empty());
+}
+
 TEST(MendModel, MendsJoints) {
   RobotModel model = four_links();
   model.joints[0].origin.position[1] = kUnlimited;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The indices and the tree of the model are sound already. Numbers that no engine can take are left
-// out or replaced. Moments that break the triangle inequality are only reported.
+// out or replaced. Moments that break the triangle inequality are only reported, and so are limits
+// that look like degrees.
 // Mimics come in two steps: first those that are wrong by themselves, then cycles. A joint has at
 // most one leader, so a walk toward the leaders ends at a joint without one or where some walk has
 // been. If that was the same walk there is a cycle, which is cut at that joint. No joint is walked
@@ -10,8 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
+#include "tenon/base/text/rounded_text.h"
+#include "tenon/math/angle.h"
 #include "tenon/math/inertia.h"
+#include "tenon/math/meant_degrees.h"
 #include "tenon/robot/kinematic_tree.h"
 
 namespace tenon::robot {
@@ -77,10 +82,11 @@ class Sanitizing {
       link.inertial.reset();
       return;
     }
-    const Vec3d moments = principal_inertia(inertial.inertia).moments;
-    if (sanitize_moments(inertial, whose, moments)) {
+    const PrincipalInertia principal = principal_inertia(inertial.inertia);
+    if (sanitize_moments(inertial, whose, principal)) {
       return;
     }
+    const Vec3d& moments = principal.moments;
     const double sum = moments[0] + moments[1] + moments[2];
     for (std::size_t i = 0; i < 3; ++i) {
       if (sum - 2 * moments[i] < -1e-6 * std::fabs(sum)) {
@@ -94,20 +100,50 @@ class Sanitizing {
     }
   }
 
-  /// Engines let no body turn without inertia: one without about some axis gets the mean about all
-  /// axes. None at all stays so: it is computed from the colliders.
-  bool sanitize_moments(Inertial& inertial, const std::string& whose, const Vec3d& moments) {
+  /// Engines let no body turn without inertia. A principal moment of 0 becomes the least that a
+  /// body with the other two can have, and at least kSlender of the largest; the others stay. Where
+  /// two are 0 or one is negative, nothing is known of the body: each gets the mean, as MuJoCo has
+  /// it. No inertia at all stays so: it is computed from the colliders.
+  bool sanitize_moments(Inertial& inertial, const std::string& whose,
+                        const PrincipalInertia& principal) {
+    constexpr double kSlender = 1e-3;
+    const Vec3d& moments = principal.moments;
     const double sum = moments[0] + moments[1] + moments[2];
-    const double least = std::min({moments[0], moments[1], moments[2]});
-    if (inertial.mass == 0 || inertial.inertia == Mat3d{} || least > 1e-9 * std::fabs(sum)) {
+    const auto lacks = [&](double moment) { return moment <= 1e-9 * std::fabs(sum); };
+    const auto lacking = std::count_if(moments.v.begin(), moments.v.end(), lacks);
+    if (inertial.mass == 0 || inertial.inertia == Mat3d{} || lacking == 0) {
       return false;
     }
-    inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
+    std::string done = "it is skipped";
+    const auto [least, largest] = std::minmax({moments[0], moments[1], moments[2]});
+    if (sum > 0 && lacking == 1 && least >= -1e-6 * sum) {
+      const double middle = sum - largest - least;
+      const double lifted = std::max(kSlender * largest, largest - middle);
+      const auto which = static_cast<std::size_t>(
+          std::find_if(moments.v.begin(), moments.v.end(), lacks) - moments.v.begin());
+      Vec3d axis;
+      axis[which] = 1;
+      add_moment(inertial.inertia, rotate(principal.axes, axis), lifted - moments[which]);
+      done = rounded_text(lifted) + " kg m^2 is used for it, the others stay";
+    } else {
+      inertial.inertia = sum > 0 ? diagonal_matrix(Vec3d{{1, 1, 1}} * (sum / 3)) : Mat3d{};
+      done = sum > 0 ? "the mean of the three is used for each" : done;
+    }
     report(inertial.place, "robot.inertia-not-positive",
-           whose + "has a principal moment that is not above 0; " +
-               (sum > 0 ? "the mean of the three is used for each" : "it is skipped"),
+           whose + "has " +
+               (lacking > 1 ? "principal moments that are" : "a principal moment that is") +
+               " not above 0; " + done,
            "take the inertia from the part's shape and mass", Severity::Warning);
     return true;
+  }
+
+  /// `moment` more about the unit vector `axis`.
+  static void add_moment(Mat3d& inertia, const Vec3d& axis, double moment) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 3; ++column) {
+        inertia[row][column] += moment * axis[row] * axis[column];
+      }
+    }
   }
 
   static bool sized(const Geometry& geometry) {
@@ -131,6 +167,28 @@ class Sanitizing {
     return false;
   }
 
+  /// A shape without an area, as markers have it: nothing of it can be seen.
+  static bool is_invisible(const Geometry& geometry) {
+    const auto zeros = [](const Vec3d& v) {
+      const double least = std::min({v[0], v[1], v[2]});
+      return finite(v) && least >= 0 && std::count(v.v.begin(), v.v.end(), 0.0) >= 2;
+    };
+    switch (geometry.kind) {
+      case GeometryKind::Box:
+      case GeometryKind::Ellipsoid:
+        return zeros(geometry.half_extents);
+      case GeometryKind::Sphere:
+      case GeometryKind::Cylinder:
+      case GeometryKind::Capsule:
+        return geometry.radius == 0;
+      case GeometryKind::Mesh:
+        return zeros(geometry.scale);
+      case GeometryKind::Plane:
+        break;
+    }
+    return false;
+  }
+
   template <class Shape>
   void sanitize_shapes(const Link& link, std::vector<Shape>& shapes, const std::string& what) {
     std::vector<Shape> kept;
@@ -142,10 +200,11 @@ class Sanitizing {
                    "\" has a pose that is not finite; it is skipped",
                "give finite numbers");
       } else if (!sized(shape.geometry)) {
+        const bool nothing = std::is_same_v<Shape, Visual> && is_invisible(shape.geometry);
         report(shape.place, "robot.bad-size",
                "a " + what + " of link \"" + link.name + "\" is a " + name +
                    " of no size; it is skipped",
-               "give sizes above 0");
+               "give sizes above 0", nothing ? Severity::Info : Severity::Error);
       } else {
         kept.push_back(std::move(shape));
       }
@@ -223,6 +282,17 @@ class Sanitizing {
                  "\" is above the upper one; they are swapped",
              "swap them");
       joint.limit = Limit{limit.upper, limit.lower};
+    }
+    if (joint.limit && joint.kind == JointKind::Revolute &&
+        degrees_were_meant(joint.limit->lower, joint.limit->upper)) {
+      const auto radians = [](double degrees) { return rounded_text(degrees / kDegreesPerRadian); };
+      report(joint.place, "robot.limits-in-degrees",
+             "the limits " + rounded_text(joint.limit->lower) + " and " +
+                 rounded_text(joint.limit->upper) + " of joint \"" + joint.name +
+                 "\" are radians, and look like degrees",
+             "write " + radians(joint.limit->lower) + " and " + radians(joint.limit->upper) +
+                 " if degrees were meant",
+             Severity::Warning);
     }
   }
 

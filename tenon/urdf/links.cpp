@@ -4,7 +4,8 @@
 // URDF gives full sizes, the model half sizes. Each mesh name gets its number when it is first met
 // and is looked for once. A mesh that is not found keeps its number with an empty path, and each
 // shape that uses it is reported and skipped, while the link stays; so is an inertial without mass.
-// A token that is not a number ends the reading.
+// One without inertia is told with the body that it becomes. A token that is not a number ends the
+// reading, except commas between numbers of shapes and inertials.
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {
@@ -59,9 +60,6 @@ Result<std::optional<robot::Inertial>> UrdfReader::read_inertial(pugi::xml_node 
   TENON_TRY(inertial.mass, xml_.number(mass, "value", std::nullopt));
   const pugi::xml_node inertia = element.child("inertia");
   if (!inertia) {
-    xml_.warn(element, "urdf.missing",
-              "has no <inertia>; the mass is kept, and spread as the colliders are",
-              "add <inertia ixx=\"...\" .../> [kg m^2]");
     return std::optional<robot::Inertial>(inertial);
   }
   xml_.list_unknown(inertia, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {});
@@ -127,7 +125,7 @@ Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element
     Geometry geometry;
     if (kind == "box") {
       xml_.list_unknown(shape, {"size"}, {});
-      TENON_TRY(const std::vector<double> size, xml_.numbers(shape, "size", 3, {}));
+      TENON_TRY(const std::vector<double> size, xml_.numbers_of(element, shape, "size", 3, {}));
       geometry.half_extents = {{size[0] / 2, size[1] / 2, size[2] / 2}};
       return std::optional<Geometry>(geometry);
     }
@@ -146,7 +144,7 @@ Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element
       return std::optional<Geometry>(geometry);
     }
     if (kind == "mesh") {
-      return read_mesh(shape);
+      return read_mesh(element, shape);
     }
   }
   xml_.warn(outer, "urdf.shape",
@@ -155,12 +153,14 @@ Result<std::optional<Geometry>> UrdfReader::read_geometry(pugi::xml_node element
   return std::optional<Geometry>();
 }
 
-Result<std::optional<Geometry>> UrdfReader::read_mesh(pugi::xml_node element) {
+Result<std::optional<Geometry>> UrdfReader::read_mesh(pugi::xml_node owner,
+                                                      pugi::xml_node element) {
   xml_.list_unknown(element, {"filename", "scale"}, {});
   Geometry geometry;
   geometry.kind = GeometryKind::Mesh;
   TENON_TRY(const std::string written, xml_.text(element, "filename"));
-  TENON_TRY(const std::vector<double> scale, xml_.numbers(element, "scale", 3, {1, 1, 1}));
+  TENON_TRY(const std::vector<double> scale,
+            xml_.numbers_of(owner, element, "scale", 3, {1, 1, 1}));
   geometry.scale = {{scale[0], scale[1], scale[2]}};
   geometry.mesh = mesh_number(written, element);
   if (model_.meshes[geometry.mesh].path.empty()) {

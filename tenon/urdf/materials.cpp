@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A material is defined below <robot> or inside a visual; a visual may also name one that is
-// defined anywhere. Two definitions of one name that differ stay two.
+// defined anywhere. Two definitions of one name that differ stay two. A colour that is none costs
+// the colour, not the robot.
 #include "tenon/base/text/text_number.h"
 #include "tenon/urdf/urdf_reader.h"
 
@@ -13,6 +14,32 @@ bool says_something(const robot::Material& material) {
   return material.color || !material.texture.empty();
 }
 
+/// None for what is no colour, which is reported.
+Result<std::optional<Vec4d>> read_color(XmlReader& xml, pugi::xml_node color) {
+  xml.list_unknown(color, {"rgba"}, {});
+  const Result<std::vector<double>> rgba = xml.numbers(color, "rgba", 4, {});
+  if (!rgba && rgba.error().diagnostic().rule == "urdf.xacro") {
+    return rgba.error();
+  }
+  if (!rgba) {
+    const std::string written = color.attribute("rgba").value();
+    xml.warn(color, "urdf.color",
+             "rgba=\"" + written + "\" is not 4 numbers; the material has no colour",
+             "write rgba=\"red green blue opacity\", each from 0 to 1", Severity::Warning,
+             written.empty() ? "" : "rgba");
+    return std::optional<Vec4d>();
+  }
+  Vec4d values{{(*rgba)[0], (*rgba)[1], (*rgba)[2], (*rgba)[3]}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(values[i] >= 0 && values[i] <= 1)) {
+      xml.warn(color, "urdf.color", "rgba has a number outside of 0 to 1; the nearest is used",
+               "divide colours of 0 to 255 by 255");
+      values[i] = values[i] > 1 ? 1 : 0;
+    }
+  }
+  return std::optional<Vec4d>(values);
+}
+
 }  // namespace
 
 Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
@@ -21,17 +48,10 @@ Result<robot::Material> UrdfReader::read_material(pugi::xml_node element) {
   material.name = element.attribute("name").value();
   material.place = xml_.place_of(element);
   if (const pugi::xml_node color = element.child("color")) {
-    xml_.list_unknown(color, {"rgba"}, {});
-    TENON_TRY(const std::vector<double> rgba, xml_.numbers(color, "rgba", 4, {}));
-    Vec4d values{{rgba[0], rgba[1], rgba[2], rgba[3]}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (!(values[i] >= 0 && values[i] <= 1)) {
-        xml_.warn(color, "urdf.color", "rgba has a number outside of 0 to 1; the nearest is used",
-                  "divide colours of 0 to 255 by 255");
-        values[i] = values[i] > 1 ? 1 : 0;
-      }
+    TENON_TRY(material.color, read_color(xml_, color));
+    if (!material.color) {
+      colorless_.insert(material.name);
     }
-    material.color = values;
   }
   if (const pugi::xml_node texture = element.child("texture")) {
     xml_.list_unknown(texture, {"filename"}, {});
@@ -106,7 +126,7 @@ Result<std::optional<robot::Index>> UrdfReader::read_material_of(pugi::xml_node 
     TENON_TRY(robot::Material defined, read_material(later->second));
     return std::optional<robot::Index>(material_number(std::move(defined)));
   }
-  if (!material.name.empty()) {
+  if (!material.name.empty() && colorless_.count(material.name) == 0) {
     xml_.warn(element, "urdf.material-missing",
               "no material \"" + material.name + "\" is defined; the shape has none",
               "define it below <robot>");

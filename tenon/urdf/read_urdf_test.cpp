@@ -362,6 +362,32 @@ TEST_F(ReadUrdf, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(read_urdf("/nowhere/x.urdf", {}, findings_).error().code(), ErrorCode::NotFound);
 }
 
+TEST_F(ReadUrdf, ABadColourCostsTheColour) {
+  const auto model = read(
+      "<material name='m'><color rgba='1 0 0 0 1'/></material>\n"
+      "<link name='a'><visual><geometry><box size='1 1 1'/></geometry>"
+      "<material name='m'/></visual></link>");
+  ASSERT_TRUE(model) << error_->to_string();
+  EXPECT_EQ(found(), "urdf.color:2 ");
+  EXPECT_FALSE(model->links[0].visuals[0].material);
+  EXPECT_FALSE(read("<material name='m'><color rgba='${red}'/></material>"));
+  EXPECT_EQ(failed(), "urdf.xacro:2");
+}
+
+TEST_F(ReadUrdf, CommasBetweenNumbersAreToldAndInJointsRefused) {
+  const auto model = read(
+      "<link name='a'><visual><origin xyz='1, 2, 3' rpy='0 0, 0'/>"
+      "<geometry><box size='1,2,3'/></geometry></visual></link>");
+  ASSERT_TRUE(model) << error_->to_string();
+  EXPECT_EQ(found(), "urdf.comma:2 urdf.comma:2 urdf.comma:2 ");
+  EXPECT_EQ(model->links[0].visuals[0].pose.position, (Vec3d{{1, 2, 3}}));
+  EXPECT_EQ(model->links[0].visuals[0].geometry.half_extents, (Vec3d{{0.5, 1, 1.5}}));
+  EXPECT_FALSE(read("<link name='a'><visual><origin xyz='0,5 1'/></visual></link>"));
+  EXPECT_EQ(failed(), "urdf.number:2");
+  EXPECT_FALSE(read(joint("fixed", "<origin xyz='0, 0 1'/>")));
+  EXPECT_EQ(failed(), "urdf.number:3");
+}
+
 TEST_F(ReadUrdf, LeavesOutShapesAndInertialsThatSayNothingAndKeepsTheLink) {
   const auto model = read(
       "<link name='a'>\n<inertial><inertia ixx='1' iyy='1' izz='1'/></inertial>\n"
@@ -370,9 +396,7 @@ TEST_F(ReadUrdf, LeavesOutShapesAndInertialsThatSayNothingAndKeepsTheLink) {
       "<collision><geometry><box size='1 1 1'/></geometry></collision></link>\n"
       "<link name='b'><inertial><mass value='2'/></inertial></link>");
   ASSERT_TRUE(model) << error_->to_string();
-  EXPECT_EQ(found(),
-            "urdf.missing:3 urdf.shape:4 urdf.missing:5 urdf.left-out:6 urdf.shape:6 "
-            "urdf.missing:8 ");
+  EXPECT_EQ(found(), "urdf.missing:3 urdf.shape:4 urdf.missing:5 urdf.left-out:6 urdf.shape:6 ");
   EXPECT_FALSE(model->links[0].inertial);
   EXPECT_TRUE(model->links[0].visuals.empty());
   EXPECT_EQ(model->links[0].colliders.size(), 1u);

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tenon/robot/robot_model.h"
@@ -45,7 +46,7 @@ class UrdfReader {
   Result<void> read_collision(pugi::xml_node element, robot::Link& link);
   /// None for a mesh that cannot be found and for unknown shapes, which is reported.
   Result<std::optional<robot::Geometry>> read_geometry(pugi::xml_node element);
-  Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node element);
+  Result<std::optional<robot::Geometry>> read_mesh(pugi::xml_node owner, pugi::xml_node element);
   robot::Index mesh_number(const std::string& written, pugi::xml_node element);
 
   // missing_meshes.cpp
@@ -80,6 +81,7 @@ class UrdfReader {
   std::unordered_map<std::string, robot::Index> material_numbers_;  // by all that they say
   std::unordered_map<std::string, robot::Index> first_material_;    // by name
   std::unordered_map<std::string, pugi::xml_node> definitions_;     // in visuals, by name
+  std::unordered_set<std::string> colorless_;                       // materials of a bad colour
   std::vector<MissingMesh> missing_meshes_;
   std::unordered_map<std::string, Error> refusals_;  // of meshes, by the written name
   std::size_t rays_ = 0;                             // of laser scanners

@@ -164,6 +164,8 @@ JOINTS = [
         kind="PhysicsPrismaticJoint", apis="", drive="", span=SPAN.format(0.1, -0.1)),
      "joint.limits-crossed"),
     ("limits in radians", elbow(span=SPAN.format(-1.5708, 1.5708)), "joint.limits-in-radians"),
+    ("limits in degrees, converted twice", elbow(span=SPAN.format(-5156.6203, 5156.6203)),
+     "joint.limits-in-degrees"),
     ("one body on both sides", {**elbow("Elbow", HAND, HAND), "more": hinge(
         "Wrist", ARM, HAND)}, "joint.same-body"),
     ("a body and its own shape", {"more": hinge("Odd", HAND, "</World/Hand/Shape>", apis="",

@@ -135,6 +135,16 @@ class BadMeshes(unittest.TestCase):
                     self.assertNotIn("def Mesh", text)
 
 
+class MissingMeshes(unittest.TestCase):
+    def test_are_not_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            robot = pathlib.Path(folder, "r.urdf")
+            robot.write_text('<robot name="r"><link name="l"><visual><geometry>'
+                             '<mesh filename="gone.stl"/></geometry></visual></link></robot>\n')
+            code, answer = tenon("convert", robot, pathlib.Path(folder, "r.usda"))
+            self.assertEqual((code, answer["meshes"]), (1, 0))
+
+
 class UnlimitedJoints(unittest.TestCase):
     """What a description cannot leave open is told by names of joints, and read as open."""
 

@@ -275,6 +275,15 @@ def special_attacks():
                  COMPOSE["flatten"], harmless=True)
     yield Attack("zip: a link for the asset's own layer", lambda folder: {
         "a.usda": ARCS["sublayer"](KINDS["link"](folder, "s.usda"))}, COLLECT["zip"])
+    # Of a Python package the folders of robots' parts belong to its robots, and nothing around it.
+    for kind, mesh, top in (
+            ("data of the package", "robots/hands/left/data/s.obj", "__init__.py"),
+            ("no folder of the package", "../secret/s.obj", "__init__.py"),
+            ("meshes beside the package", "../other/hands/left/meshes/s.obj", "__init__.py"),
+            ("no __init__.py above", "robots/hands/left/meshes/s.obj", "readme.txt")):
+        yield Attack(f"convert: {kind}",
+                     lambda folder, m=mesh, t=top: robot_of_a_python_package(folder, m, t),
+                     ["convert", "ASSET", "OUT/made.usda"])
     # A name without ./ is looked up in the working directory, which is nothing of the asset's.
     for verb in ("zip", "structure"):
         yield Attack(f"{verb}: search in the working directory", lambda folder: {
@@ -296,6 +305,17 @@ def robot_of_a_package(folder):
     return {"urdf/r.urdf": shown("../meshes/own.obj")}
 
 
+def robot_of_a_python_package(folder, mesh="robots/hands/left/meshes/own.obj", top="__init__.py"):
+    """Robots of a Python package share the meshes of a hand, further down than ROS has them."""
+    package = folder.parent / "lib"  # the folder of the others is called "asset"
+    robot = shown(os.path.relpath(mesh, "robots/humanoid/one"))
+    for name, contents in (("robots/humanoid/one/r.urdf", robot), (mesh, OBJ), (top, ""),
+                           ("robots/hands/__init__.py", "")):
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(contents)
+    return {"../lib/robots/humanoid/one/r.urdf": robot}
+
+
 HONEST = [
     ("structure: own texture", lambda folder: {"a.usda": texture(f"./{own_picture(folder).name}")},
      COLLECT["structure"]),
@@ -314,6 +334,8 @@ HONEST = [
     ("zip: search path", lambda folder: {"a.usda": ARCS["reference"]("s.usda")},
      [*COLLECT["zip"], "--search-path", "FOLDER/../secret"]),
     ("convert: meshes beside urdf", robot_of_a_package, ["convert", "ASSET", "OUT/made.usda"]),
+    ("convert: meshes of another robot of a Python package", robot_of_a_python_package,
+     ["convert", "ASSET", "OUT/made.usda"]),
     ("convert: given package", lambda folder: {"r.urdf": shown("package://p/s.obj")},
      ["convert", "ASSET", "OUT/made.usda", "--package", "p=FOLDER/../secret"]),
     ("convert: texture of an allowed file", lambda folder: {

@@ -14,7 +14,7 @@ namespace tenon {
 struct RobotCounts {
   std::size_t links = 0;
   std::size_t joints = 0;
-  std::size_t meshes = 0;  ///< files
+  std::size_t meshes = 0;  ///< files that were found
 };
 RobotCounts counts_of(const ConvertedFile& converted);
 

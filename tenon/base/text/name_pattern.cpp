@@ -91,4 +91,8 @@ bool NamePattern::matches(const Path& prim) const {
   return path == text_ || name == text_ || expression_->matches(path) || expression_->matches(name);
 }
 
+bool NamePattern::matches_text(const std::string& name) const {
+  return name == text_ || expression_->matches(name);
+}
+
 }  // namespace tenon

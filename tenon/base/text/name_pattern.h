@@ -23,6 +23,8 @@ class NamePattern {
 
   const std::string& text() const { return text_; }
   bool matches(const Path& prim) const;
+  /// The same for a name of any letters, in the place of a prim.
+  bool matches_text(const std::string& name) const;
 
  private:
   class Expression;

@@ -21,6 +21,12 @@ TEST(NamePattern, MeansAPathANameOrAnExpressionForTheWhole) {
   EXPECT_FALSE(matches("hand", "/hand/Physics/thumb"));
 }
 
+TEST(NamePattern, MatchesNamesThatNoPrimHas) {
+  EXPECT_TRUE(NamePattern::parse("left arm/.*")->matches_text("left arm/elbow"));
+  EXPECT_TRUE(NamePattern::parse("a+b")->matches_text("a+b"));  // the name itself
+  EXPECT_FALSE(NamePattern::parse("elbow")->matches_text("left arm/elbow"));
+}
+
 TEST(NamePattern, SaysWhatIsWrongWithOne) {
   for (const char* text : {"", "(", "[a", "(a)\\1"}) {
     const auto pattern = NamePattern::parse(text);

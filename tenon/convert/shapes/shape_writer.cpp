@@ -21,6 +21,24 @@ using layer::Variability;
 using robot::GeometryKind;
 using robot::Index;
 
+namespace {
+
+const char* approximation_name(robot::Approximation approximation) {
+  switch (approximation) {
+    case robot::Approximation::Decomposition:
+      return "convexDecomposition";
+    case robot::Approximation::Sphere:
+      return "boundingSphere";
+    case robot::Approximation::None:
+      return "none";
+    case robot::Approximation::Hull:
+      break;
+  }
+  return "convexHull";
+}
+
+}  // namespace
+
 ShapeWriter::ShapeWriter(const Source& source, const LinkPrims& links, MaterialWriter& materials,
                          RobotLayer& layer)
     : source_(source),
@@ -120,7 +138,7 @@ void ShapeWriter::write_use(Path prim, const Shape& shape, std::optional<Index> 
   if (shape.geometry.kind == GeometryKind::Mesh || is_hull(shape)) {
     layer_.builder().apply(prim, "PhysicsMeshCollisionAPI");
     layer_.builder().set_value(prim, "PhysicsMeshCollisionAPI", "physics:approximation",
-                               Value(Token("convexHull")));
+                               Value(Token(approximation_name(shape.collider->approximation))));
   }
   write_collider(prim, *shape.collider);
 }

@@ -44,7 +44,8 @@ std::string why_not_kept(const std::string& file, const bytes::ReadPolicy& readi
 
 bool asks_for_another(const ConvertOptions& options) {
   return options.merge_fixed || options.float_base || options.fix_base || options.gains ||
-         options.self_collision || !options.joint_gains.empty();
+         options.self_collision || options.density || !options.joint_gains.empty() ||
+         !options.armature.empty() || !options.friction.empty() || !options.collision.empty();
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 // Each instance of the drive API names a degree of freedom and becomes one drive of the joint. All
 // numbers go to SI by the factors of drive_units. Gains about an axis are authored per degree
 // (S-13). Those of acceleration drives hold no mass, because they act on the effective inertia
-// (S-104). A drive without an effect is kept and reported; one for an axis that the joint lacks is
-// skipped.
+// (S-104). A drive without an effect is kept and reported, but of a joint that follows another one
+// it says the effort; one for an axis that the joint lacks is skipped.
 #include "tenon/physics/joints/drives.h"
 
 #include <cmath>
@@ -101,8 +101,15 @@ DriveEnvelope read_envelope(const ReadState& state, const PhysicsPrim& found, To
   return envelope;
 }
 
-void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& joint,
+/// A drive of a joint that follows another one says what effort the joint takes.
+bool follows_by(const PhysicsPrim& found) {
+  return found.roles.has(Api::NewtonMimic) || found.roles.has(Api::PhysxMimicJoint) ||
+         found.roles.has(Api::MjcEqualityJoint);
+}
+
+void check_effect(const ReadState& state, const PhysicsPrim& found, const Joint& joint,
                   const Drive& drive, Token instance) {
+  const stage::Prim& prim = found.prim;
   const bool is_idle = drive.stiffness == 0 && drive.damping == 0;
   if (!is_idle && !drive.acceleration && !is_locked(joint, drive.dof)) {
     return;
@@ -117,6 +124,9 @@ void check_effect(const ReadState& state, const stage::Prim& prim, const Joint& 
                  "use a force drive, whose gains all readers take alike", api);
   }
   if (is_idle) {
+    if (follows_by(found)) {
+      return;
+    }
     // S-106
     state.report(prim, Severity::Info, "drive.no-effect",
                  name + " has neither stiffness nor damping: no force", "author gains", api);
@@ -157,8 +167,9 @@ DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration) {
   return result;
 }
 
-std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,
-                                Token instance) {
+std::optional<Drive> read_drive(const ReadState& state, const PhysicsPrim& found,
+                                const Joint& joint, Token instance) {
+  const stage::Prim& prim = found.prim;
   const std::optional<Dof> dof = driven_dof(state, prim, joint, instance);
   if (!dof) {
     return std::nullopt;
@@ -175,7 +186,7 @@ std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim,
   drive.max_force = read_max_force(state, prim, names.max_force, unit.force);
   drive.target_position = values.number(prim, names.target_position).value_or(0) * unit.position;
   drive.target_velocity = values.number(prim, names.target_velocity).value_or(0) * unit.velocity;
-  check_effect(state, prim, joint, drive, instance);
+  check_effect(state, found, joint, drive, instance);
   return drive;
 }
 
@@ -187,7 +198,7 @@ void read_drives(ReadState& state) {
     }
     Joint& joint = state.scene.joints[i];
     for (const Token& instance : found.prim.api_instances("PhysicsDriveAPI")) {
-      std::optional<Drive> drive = read_drive(state, found.prim, joint, instance);
+      std::optional<Drive> drive = read_drive(state, found, joint, instance);
       if (drive) {
         drive->envelope = read_envelope(state, found, instance, drive->dof);
         state.drive_instances.push_back({i, static_cast<Index>(joint.drives.size()), instance});

@@ -28,7 +28,7 @@ struct DriveUnits {
 DriveUnits drive_units(const ReadState& state, Dof dof, bool acceleration);
 
 /// One instance of the drive API; nullopt where it drives nothing.
-std::optional<Drive> read_drive(const ReadState& state, const stage::Prim& prim, const Joint& joint,
-                                Token instance);
+std::optional<Drive> read_drive(const ReadState& state, const PhysicsPrim& found,
+                                const Joint& joint, Token instance);
 
 }  // namespace tenon::physics
