@@ -42,7 +42,7 @@ LIBRARIES = {
         "bench/step_mujoco.cpp",
     ],
     "pugixml.hpp": ["tenon/asset/mjcf_files.cpp", "tenon/asset/converting/model_text.h",
-                    "tenon/urdf/*"],
+                    "tenon/urdf/*", "tenon/sdf/*"],
     "toml++/*": ["tenon/settings/toml_table.cpp"],
     "assimp/*": ["tenon/mesh/assimp_scene.cpp"],
     "CLI/*": ["cli/command_line.cpp"],

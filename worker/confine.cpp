@@ -79,7 +79,8 @@ rlim_t seconds_used() {
 
 [[noreturn]] void out_of_memory() { _exit(static_cast<int>(guard::WorkerExit::OutOfMemory)); }
 
-/// Of the privileges of root none is left but to read files, as it may without this.
+}  // namespace
+
 void drop_capabilities() {
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct data[2]{};
@@ -93,8 +94,6 @@ void drop_capabilities() {
   data[1] = {};
   syscall(SYS_capset, &header, data);
 }
-
-}  // namespace
 
 void prepare() {
   set_limit(RLIMIT_CORE, 0, 0);

@@ -27,10 +27,23 @@ void rest();
 /// A file of `size` bytes is read on top: more memory and time.
 void allow_more(std::uint64_t size);
 
-/// Version of Landlock in force from now on, 0: none.
-int restrict_files(const std::vector<std::string>& roots);
+/// Version of Landlock in force from now on, 0: none. Below `programs` files may be read, and
+/// started as programs.
+int restrict_files(const std::vector<std::string>& roots,
+                   const std::vector<std::string>& programs = {});
+
+/// Of the privileges of root none is left but to read files, as it may without this.
+void drop_capabilities();
 
 /// Whether the kernel took the filter of system calls.
 bool restrict_system_calls();
+
+/// The same for a program that this process becomes, an interpreter: it may also start others in
+/// its place, which are as confined.
+bool restrict_program_calls();
+
+/// Confines this process and becomes the program that `words`, behind "run", names
+/// (run_confined.cpp).
+[[noreturn]] void run_confined(int count, char** words);
 
 }  // namespace tenon::worker

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/socket.h>
@@ -201,4 +202,9 @@ void open_libraries(Reader reader) {
 }  // namespace
 }  // namespace tenon::worker
 
-int main() { tenon::worker::run(); }
+int main(int count, char** words) {
+  if (count > 3 && std::string_view(words[1]) == "run") {
+    tenon::worker::run_confined(count - 2, words + 2);
+  }
+  tenon::worker::run();
+}

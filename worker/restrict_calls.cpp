@@ -102,6 +102,19 @@ constexpr int kAllowed[] = {
 #endif
 };
 
+/// What an interpreter begins with, beside these.
+constexpr int kAllowedForPrograms[] = {
+    SYS_execve,  SYS_set_tid_address,
+    SYS_getppid, SYS_ioctl,
+    SYS_dup3,    SYS_pipe2,
+    SYS_ppoll,   SYS_pselect6,
+    SYS_fstatfs, SYS_statfs,
+#if defined(__x86_64__)
+    SYS_dup2,    SYS_poll,
+    SYS_select,  SYS_getpgrp,
+#endif
+};
+
 constexpr std::uint32_t kWrites = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND;
 
 /// Builds the filter; each row is complete by itself, so that no jump is long.
@@ -162,12 +175,8 @@ class Filter {
   std::vector<sock_filter> rows_;
 };
 
-}  // namespace
-
-bool restrict_system_calls() {
-  if (kMachine == 0) {
-    return false;
-  }
+/// Reading and computing.
+Filter reading_alone() {
   Filter filter;
   for (const int call : kAllowed) {
     filter.allow(call);
@@ -180,6 +189,21 @@ bool restrict_system_calls() {
   filter.refuse(SYS_clone3, ENOSYS);  // its flags lie in memory; the C library takes clone then
   filter.allow_with(SYS_prlimit64, 0, 0);
   filter.allow_with(SYS_tgkill, 0, static_cast<std::uint32_t>(getpid()));
+  return filter;
+}
+
+}  // namespace
+
+bool restrict_system_calls() { return kMachine != 0 && reading_alone().install(); }
+
+bool restrict_program_calls() {
+  if (kMachine == 0) {
+    return false;
+  }
+  Filter filter = reading_alone();
+  for (const int call : kAllowedForPrograms) {
+    filter.allow(call);
+  }
   return filter.install();
 }
 

@@ -43,7 +43,7 @@ Ruleset all_of(int version) {
 
 std::size_t size_of(int version) { return version >= 6 ? 24 : version >= 4 ? 16 : 8; }
 
-bool allow_reading(int ruleset, const std::string& root) {
+bool allow_below(int ruleset, const std::string& root, std::uint64_t files) {
   const int folder = open(root.c_str(), O_PATH | O_CLOEXEC);
   if (folder < 0) {
     return false;
@@ -51,7 +51,7 @@ bool allow_reading(int ruleset, const std::string& root) {
   struct stat facts{};
   const bool known = fstat(folder, &facts) == 0;
   landlock_path_beneath_attr rule{};
-  rule.allowed_access = known && S_ISDIR(facts.st_mode) ? kReadFile | kReadFolder : kReadFile;
+  rule.allowed_access = known && S_ISDIR(facts.st_mode) ? files | kReadFolder : files;
   rule.parent_fd = folder;
   const long added = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
   close(folder);
@@ -60,7 +60,8 @@ bool allow_reading(int ruleset, const std::string& root) {
 
 }  // namespace
 
-int restrict_files(const std::vector<std::string>& roots) {
+int restrict_files(const std::vector<std::string>& roots,
+                   const std::vector<std::string>& programs) {
   const auto version = static_cast<int>(
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
   if (version < 1) {
@@ -73,7 +74,10 @@ int restrict_files(const std::vector<std::string>& roots) {
     return 0;
   }
   for (const std::string& root : roots) {
-    allow_reading(ruleset, root);  // what cannot be allowed stays forbidden
+    allow_below(ruleset, root, kReadFile);  // what cannot be allowed stays forbidden
+  }
+  for (const std::string& root : programs) {
+    allow_below(ruleset, root, kReadFile | LANDLOCK_ACCESS_FS_EXECUTE);
   }
   const long restricted = syscall(SYS_landlock_restrict_self, ruleset, 0);
   close(ruleset);
@@ -82,7 +86,7 @@ int restrict_files(const std::vector<std::string>& roots) {
 
 #else
 
-int restrict_files(const std::vector<std::string>&) { return 0; }
+int restrict_files(const std::vector<std::string>&, const std::vector<std::string>&) { return 0; }
 
 #endif
 

@@ -41,9 +41,12 @@ struct ConvertArguments {
   std::string input;
   std::string output;
   std::vector<std::string> packages;
+  std::vector<std::string> arguments;
   FileAccess files;
-  std::string gains;
+  RuleTexts rules;
+  std::optional<double> density;
   std::string name;
+  std::string model;
   std::string names;  ///< empty: those of the settings, else "current"
   std::string schema;
   std::string physics;
@@ -73,18 +76,22 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   }
   result.robot.scene = options.scene;
   result.name = options.name;
+  result.model = options.model;
   result.robot.tutorial = options.names == "tutorial";
   result.robot.flat |= result.robot.tutorial;
   const bool both = options.schema.empty() ? result.robot.tutorial : options.schema == "both";
   result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
                         : both                     ? convert::SchemaGeneration::Both
                                                    : convert::SchemaGeneration::Current;
-  if (!options.gains.empty()) {
-    TENON_CHECK(read_gains(options.gains, result.open.files, result.robot));
-  }
+  result.robot.density = options.density;
+  TENON_CHECK(read_rules(options.rules, result.open.files, result.robot));
   for (const std::string& text : options.packages) {
     TENON_TRY(auto package, split_assignment(text));
     result.packages.insert(std::move(package));
+  }
+  for (const std::string& text : options.arguments) {
+    TENON_TRY(auto argument, split_assignment(text));
+    result.arguments.insert(std::move(argument));
   }
   return result;
 }
@@ -305,6 +312,8 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_option("--name", options.name,
                   "Name of the robot, and of the file that opens it in a folder; that of the "
                   "description if not given");
+  verb.add_option("--model", options.model,
+                  "Of an SDF file with several models: the one to convert");
   verb.add_option("--names", options.names,
                   "Files, names and attributes in a folder: those of Isaac Sim 6, or those of its "
                   "tutorial, with links side by side and variants for PhysX and MuJoCo; without it "
@@ -316,7 +325,7 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
                 "where it has no mass, or is called world or base_link and no joint floats");
   verb.add_option("--self-collision", options.self_collision,
                   "on or off: whether links of the robot touch each other; if not given, off for "
-                  "URDF, and for MJCF what the model says")
+                  "URDF, and for SDF and MJCF what the model says")
       .one_of({"on", "off"});
   verb.add_option(
           "--start", options.start,
@@ -336,9 +345,22 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
 }
 
 void add_drive_options(const Command& verb, ConvertArguments& options) {
-  verb.add_option("--gains", options.gains,
+  verb.add_option("--gains", options.rules.gains,
                   "K,D: a drive for each joint that follows no other, in N m/rad and N m s/rad "
-                  "(N/m and N s/m); or a JSON file {\"joint\": [K, D], \"*\": [K, D]}");
+                  "(N/m and N s/m); REGEX=K,D: for those of these names; or a JSON file "
+                  "{\"joint\": [K, D], \"*\": [K, D]}")
+      .value_name("[REGEX=]K,D")
+      .repeatable();
+  verb.add_option("--armature", options.rules.armature,
+                  "Rotor inertia of joints with one axis, in kg m^2 or kg, in place of the "
+                  "description's")
+      .value_name("[REGEX=]VALUE")
+      .repeatable();
+  verb.add_option("--friction", options.rules.friction,
+                  "Coulomb friction of joints with one axis, in N m or N, in place of the "
+                  "description's")
+      .value_name("[REGEX=]VALUE")
+      .repeatable();
   verb.add_option("--schema", options.schema,
                   "Vendors' schemas for joints: current (Newton, PhysX joint axes), legacy (PhysX "
                   "joints and mimics of Isaac Sim 5, MuJoCo) or both; current if not given, both "
@@ -346,14 +368,25 @@ void add_drive_options(const Command& verb, ConvertArguments& options) {
       .one_of({"current", "legacy", "both"});
 }
 
+void add_body_options(const Command& verb, ConvertArguments& options) {
+  verb.add_option("--collision", options.rules.collision,
+                  "What meshes of links collide as: hull, decomposition (convex pieces), sphere "
+                  "(around the mesh) or none (the mesh itself, which not every engine takes for "
+                  "bodies that move); hull if not given")
+      .value_name("[REGEX=]hull|decomposition|sphere|none")
+      .repeatable();
+  verb.add_option("--density", options.density, {0, 1e6, true, false, "kg/m^3"},
+                  "Density of links that move and have colliders and no mass");
+}
+
 }  // namespace
 
 void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
       "convert",
-      "Convert a robot description (URDF, MJCF) to an asset, or an asset to a description");
+      "Convert a robot description (URDF, SDF, MJCF) to an asset, or an asset to a description");
   auto options = std::make_shared<ConvertArguments>();
-  verb.add_option("input", options->input, "A URDF or MJCF file, or an asset")
+  verb.add_option("input", options->input, "A URDF, SDF or MJCF file, or an asset")
       .required()
       .file_only();
   verb.add_option("output", options->output,
@@ -361,22 +394,31 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
                   "asset an .xml or .urdf file")
       .required();
   verb.add_option("--package", options->packages,
-                  "NAME=DIR: where a ROS package is; without "
+                  "NAME=DIR: where a ROS package or a model of Gazebo is; without "
                   "it, the folders above the input are searched")
+      .repeatable();
+  verb.add_option("--arg", options->arguments,
+                  "NAME=VALUE: an argument of a file with macros of xacro")
       .repeatable();
   options->files.add_to(verb);
   add_robot_options(verb, *options);
   add_drive_options(verb, *options);
+  add_body_options(verb, *options);
   verb.footer(
       "Examples:\n  tenon convert hand.urdf hand.usda\n"
       "  tenon convert hand.urdf hand/     one file for each concern, as tenon structure makes it\n"
       "  tenon convert X.urdf hand/ --name inspire_hand --names tutorial\n"
       "  tenon convert arm.urdf arm.usdc --fix-base --gains 400,40\n"
+      "  tenon convert hand.urdf hand/ --gains 10,1 --gains 'thumb.*=4,0.4' --armature 0.001\n"
       "  tenon convert hand.urdf hand/ --update    after a change of hand.urdf; edits of hand/ "
       "stay\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
       "  tenon convert hand.usda hand.urdf\n"
       "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"
+      "REGEX=VALUE is for joints (--collision: links) whose whole name matches; of several the "
+      "last\n"
+      "that matches counts, and a VALUE alone is for all others. One that matches nothing is an "
+      "error.\n"
       "Exit code 1: written, but something of the robot is left out, or an edit and the source\n"
       "changed the same thing (--update); each case is listed.");
   choose(verb, chosen, [&globals, options] { return run_convert(globals, *options); });

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Which format a description has is told by its contents. URDF and SDF are read here, MJCF by the
+// worker, and macros of xacro are expanded before anything else is looked at.
 #include "tenon/asset/convert_file.h"
 
 #include <algorithm>
@@ -8,6 +11,8 @@
 
 #include "tenon/asset/mjcf_files.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/file_finding.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/files.h"
 #include "tenon/bytes/read_record.h"
@@ -15,7 +20,9 @@
 #include "tenon/guard/not_a_number.h"
 #include "tenon/guard/workers.h"
 #include "tenon/robot/check_model.h"
+#include "tenon/sdf/read_sdf.h"
 #include "tenon/urdf/read_urdf.h"
+#include "tenon/xacro/expand_xacro.h"
 
 namespace tenon {
 namespace {
@@ -50,12 +57,30 @@ Result<robot::RobotModel> read_mjcf(const std::string& path, bytes::ReadPolicy& 
   return model;
 }
 
-/// Meshes and SDF are no descriptions that are read.
+/// The text without macros. Its lines are others than those of the file.
+Result<std::string> expanded(const std::string& path, const ConvertFileOptions& options,
+                             bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
+  TENON_TRY(xacro::ExpandedXacro done,
+            xacro::expand_xacro(path, {options.arguments, options.packages, policy}));
+  for (const std::string& file : done.opened) {
+    bytes::note_read(file);
+  }
+  for (const std::string& folder : done.found_folders) {
+    policy.add_found(folder);
+  }
+  diagnostics.add(file_finding(Severity::Info, "xacro.expanded",
+                               "the macros were expanded by xacro; lines are those of its output",
+                               path, 0, "see them with xacro " + shell_word(shown_path(path))));
+  return std::move(done.text);
+}
+
+/// Meshes are no descriptions.
 Result<void> check_is_robot(std::string_view contents, const std::string& path) {
   using formats::ForeignFormat;
   const ForeignFormat format = formats::foreign_format(contents);
   if (format == ForeignFormat::None || format == ForeignFormat::Urdf ||
-      format == ForeignFormat::Xacro || format == ForeignFormat::Mjcf) {
+      format == ForeignFormat::Xacro || format == ForeignFormat::Sdf ||
+      format == ForeignFormat::Mjcf) {
     return {};
   }
   return Error(ErrorCode::Unsupported, "this is " +
@@ -66,16 +91,54 @@ Result<void> check_is_robot(std::string_view contents, const std::string& path) 
       .with_fix(formats::foreign_format_advice(format, shown_path(path)));
 }
 
+/// What only one of the formats has.
+Result<void> check_format_options(const std::string& path, const ConvertFileOptions& options,
+                                  bool is_sdf, bool is_xacro) {
+  const char* message = !options.model.empty() && !is_sdf ? "--model chooses a model of an SDF file"
+                        : !options.arguments.empty() && !is_xacro
+                            ? "--arg is for files with macros of xacro"
+                            : nullptr;
+  if (message == nullptr) {
+    return {};
+  }
+  return Error(ErrorCode::Invalid, message)
+      .in_file(path)
+      .with_rule("convert.option")
+      .with_fix("leave it out");
+}
+
 Result<robot::RobotModel> read_model(const std::string& path, const ConvertFileOptions& options,
                                      bytes::ReadPolicy& policy, Diagnostics& diagnostics) {
   TENON_TRY(const auto bytes,
             policy.is_closed() ? policy.open(path) : policy.files()->open(path, {}));
   TENON_CHECK(check_is_robot(bytes->text(), path));
-  if (!is_mjcf(bytes->text())) {
-    return urdf::read_urdf_text(bytes->text(), path,
-                                {options.packages, options.open.search_paths, policy}, diagnostics);
+  if (is_mjcf(bytes->text())) {
+    TENON_CHECK(check_format_options(path, options, false, false));
+    return read_mjcf(path, policy, diagnostics);
   }
-  return read_mjcf(path, policy, diagnostics);
+  std::string_view text = bytes->text();
+  const bool has_macros = xacro::is_xacro(text, path);
+  std::string without_macros;
+  if (has_macros) {
+    TENON_TRY(without_macros, expanded(path, options, policy, diagnostics));
+    text = without_macros;
+  }
+  const bool is_sdf = formats::foreign_format(text) == formats::ForeignFormat::Sdf;
+  TENON_CHECK(check_format_options(path, options, is_sdf, has_macros));
+  if (is_sdf) {
+    return sdf::read_sdf_text(text, path,
+                              {options.packages, options.open.search_paths, policy, options.model},
+                              diagnostics);
+  }
+  return urdf::read_urdf_text(text, path, {options.packages, options.open.search_paths, policy},
+                              diagnostics);
+}
+
+/// Without those that cannot be found.
+std::size_t meshes_found(const robot::RobotModel& model) {
+  return static_cast<std::size_t>(std::count_if(
+      model.meshes.begin(), model.meshes.end(),
+      [](const robot::MeshFile& mesh) { return !mesh.path.empty() || !mesh.triangles.empty(); }));
 }
 
 bytes::ReadPolicy policy_of(const std::string& path, const ConvertFileOptions& options) {
@@ -102,7 +165,7 @@ Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOpt
   robot.reading = policy;
   ConvertedFile converted{layer::Layer(""),    {},
                           std::move(policy),   model.links.size(),
-                          model.joints.size(), model.meshes.size()};
+                          model.joints.size(), meshes_found(model)};
   TENON_TRY(converted.layer,
             convert::convert_robot(std::move(model), robot, diagnostics, &converted.images));
   return converted;

@@ -17,7 +17,9 @@ namespace tenon {
 struct ConvertFileOptions {
   convert::ConvertOptions robot;
   std::string name;  ///< of the robot, in the place of the description's; empty: that
-  std::map<std::string, std::string> packages;  ///< folders of ROS packages by name
+  std::map<std::string, std::string> packages;   ///< folders of ROS packages and models by name
+  std::map<std::string, std::string> arguments;  ///< of xacro, by name
+  std::string model;  ///< which one of an SDF file with several; empty: the only one
   /// Of these files, sandbox, search paths and what may be read count; `robot.reading` is made of
   /// them.
   OpenOptions open;
@@ -32,7 +34,8 @@ struct ConvertedFile {
   std::size_t meshes = 0;  ///< files
 };
 
-/// A robot's description as a layer (convert/convert_robot.h): URDF or MJCF, told by its root.
+/// A robot's description as a layer (convert/convert_robot.h): URDF, SDF or MJCF, told by its root;
+/// macros of xacro are expanded (xacro/expand_xacro.h).
 /// Asset paths of the layer are absolute. What the description names is read from the folders that
 /// belong to it (docs/reading.md); other files are skipped, with an error. Errors: those of reading
 /// and converting; Missing for MJCF without MuJoCo; Unsupported "file.not-on-disk" for MJCF,

@@ -19,6 +19,8 @@ bool tells_of_missing_input(const Diagnostic& finding) {
       "convert.mesh-unreadable",
       "package.expression",
       "package.missing",
+      "sdf.include-missing",
+      "sdf.mesh-missing",
       "stage.too-many-prims",
       "urdf.mesh-missing",
   };

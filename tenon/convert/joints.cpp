@@ -154,9 +154,10 @@ bool stands_by_its_name(const Source& source) {
   return may_stand(source) && (name == "world" || name == "base_link");
 }
 
-Path write_fixed_base(Path root, PhysicsScope& physics) {
+/// `place` is that of the root in the world.
+Path write_fixed_base(Path root, const Pose& place, PhysicsScope& physics) {
   const Path path = physics.define("fixed_base", "PhysicsFixedJoint");
-  write_side(physics.builder(), path, 0, {}, {});
+  write_side(physics.builder(), path, 0, {}, place);
   write_side(physics.builder(), path, 1, root, {});
   return path;
 }
@@ -185,7 +186,7 @@ JointPrims write_joints(const Source& source, const LinkPrims& links, PhysicsSco
   JointPrims prims;
   const bool by_name = !source.options.fix_base && stands_by_its_name(source);
   if (root.role == LinkRole::Body && (source.options.fix_base || by_name)) {
-    prims.base = write_fixed_base(root.path, physics);
+    prims.base = write_fixed_base(root.path, root.in_robot, physics);
     if (by_name) {
       const robot::Link& link = source.model.links[source.tree.root];
       physics.layer().report(

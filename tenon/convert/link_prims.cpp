@@ -77,6 +77,7 @@ LinkPrim placed_link(const Source& source, Index link, const LinkPrims& links) {
   LinkPrim prim;
   prim.role = role_of(source, link, links.carried.has_value());
   prim.host = link;
+  prim.in_robot = source.model.root_pose;
   if (const std::optional<Index> above = source.tree.joint_to_parent[link]) {
     const robot::Joint& joint = source.model.joints[*above];
     const LinkPrim& parent = links[joint.parent];

@@ -36,8 +36,8 @@ void write_self_collision(const Source& source, RobotLayer& layer) {
   const layer::Value on(source.options.self_collision.value_or(source.model.self_collision));
   if (!source.options.self_collision && !source.model.self_collision) {
     layer.diagnostics().add({Severity::Info, "convert.self-collision",
-                             "links of the robot do not touch each other: URDF does not say, and "
-                             "its simulators have it off",
+                             "links of the robot do not touch each other, which is the default of "
+                             "SDF and of URDF's simulators",
                              layer.robot().str(), "", "convert with --self-collision on"});
   }
   LayerBuilder& builder = layer.builder();

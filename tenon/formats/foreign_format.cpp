@@ -131,7 +131,7 @@ std::string_view foreign_format_name(ForeignFormat format) {
     case ForeignFormat::Urdf:
       return "a URDF";
     case ForeignFormat::Xacro:
-      return "a xacro file, which is not expanded";
+      return "a URDF with macros of xacro";
     case ForeignFormat::Mjcf:
       return "an MJCF model";
     case ForeignFormat::Sdf:
@@ -155,13 +155,10 @@ std::string foreign_format_advice(ForeignFormat format, const std::string& name)
     case ForeignFormat::None:
       return {};
     case ForeignFormat::Urdf:
+    case ForeignFormat::Xacro:
+    case ForeignFormat::Sdf:
     case ForeignFormat::Mjcf:
       return "run `tenon convert " + shell_word(name) + " out/`";
-    case ForeignFormat::Xacro:
-      return "run `xacro " + shell_word(name) + " > out.urdf`, then `tenon convert out.urdf out/`";
-    case ForeignFormat::Sdf:
-      return "SDF cannot be converted: export the model as URDF or MJCF, then run `tenon convert` "
-             "on it";
     case ForeignFormat::Obj:
     case ForeignFormat::Stl:
     case ForeignFormat::Gltf:

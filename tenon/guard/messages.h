@@ -79,6 +79,8 @@ enum class WorkerExit : std::uint8_t {
   BadTask = 64,
   OutOfMemory = 65,
   LongReply = 66,
+  NoSandbox = 68,  ///< of --run: the kernel cannot confine another program
+  NoProgram = 69,  ///< of --run: it cannot be started
 };
 
 }  // namespace tenon::guard

@@ -13,6 +13,7 @@
 #include "tenon/math/matrix.h"
 #include "tenon/math/transform.h"
 #include "tenon/math/vector.h"
+#include "tenon/robot/approximation.h"
 #include "tenon/robot/cameras_and_lights.h"
 #include "tenon/robot/joint_quantity.h"
 #include "tenon/robot/mujoco_parts.h"
@@ -94,6 +95,7 @@ struct Collider {
   std::optional<Index> material;       ///< how it looks, where the description says so
   std::optional<Index> contact_class;  ///< into RobotModel::contact_classes; none: touches all
   MujocoContact mujoco;
+  Approximation approximation = Approximation::Hull;  ///< of a mesh
   Place place;
 };
 
@@ -140,6 +142,8 @@ struct MeshFile {
   std::vector<Vec3i> triangles;  ///< (triangle_count), indices into points
   /// (3 triangle_count), a corner's place in images from the lower left; or empty
   std::vector<Vec2f> texture_coordinates{};
+  std::string part{};     ///< the only mesh of the file that is meant, by its name; empty: all
+  bool centered = false;  ///< the middle of its box is moved to the origin
 };
 
 /// A named frame on a link.
@@ -252,11 +256,13 @@ struct Joint {
 /// A joint between two links beside the tree, which closes a loop.
 struct LoopJoint {
   std::string name;
-  JointKind kind = JointKind::Ball;  ///< Ball: one point of each coincides; Fixed
-  std::array<Index, 2> links{};      ///< into RobotModel::links
-  std::array<Pose, 2> frames;        ///< of the joint in the links
-  double torque_scale = 1;           ///< of Fixed, as MuJoCo weighs rotation [m]
-  std::vector<double> solref;        ///< MuJoCo's softness; empty: its default
+  /// Ball: one point of each coincides; Fixed; Revolute, Continuous, Prismatic.
+  JointKind kind = JointKind::Ball;
+  std::array<Index, 2> links{};  ///< into RobotModel::links
+  std::array<Pose, 2> frames;    ///< of the joint in the links
+  Vec3d axis{{1, 0, 0}};         ///< unit vector in the frames
+  double torque_scale = 1;       ///< of Fixed, as MuJoCo weighs rotation [m]
+  std::vector<double> solref;    ///< MuJoCo's softness; empty: its default
   std::vector<double> solimp;
 };
 
@@ -271,6 +277,7 @@ struct RobotModel {
   std::string name;
   std::string file;  ///< the description; places are places in it
   std::vector<Link> links;
+  Pose root_pose{};  ///< of the link without a parent, where the robot is put
   std::vector<Joint> joints;
   std::vector<Material> materials;
   std::vector<MeshFile> meshes;  ///< each file once

@@ -12,35 +12,13 @@
 
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/urdf/gazebo_colors.h"
 #include "tenon/urdf/urdf_reader.h"
 
 namespace tenon::urdf {
 namespace {
 
 using robot::SiteSensorKind;
-
-struct NamedColor {
-  std::string_view name;
-  Vec4d color;
-};
-
-/// Gazebo's own materials that are one colour.
-constexpr NamedColor kColors[] = {
-    {"Black", {{0, 0, 0, 1}}},
-    {"Blue", {{0, 0, 1, 1}}},
-    {"DarkGrey", {{0.175, 0.175, 0.175, 1}}},
-    {"DarkYellow", {{0.7, 0.7, 0, 1}}},
-    {"FlatBlack", {{0.1, 0.1, 0.1, 1}}},
-    {"Green", {{0, 1, 0, 1}}},
-    {"Grey", {{0.7, 0.7, 0.7, 1}}},
-    {"Indigo", {{0.33, 0, 0.5, 1}}},
-    {"Orange", {{1, 0.5, 0, 1}}},
-    {"Purple", {{1, 0, 1, 1}}},
-    {"Red", {{1, 0, 0, 1}}},
-    {"Turquoise", {{0, 1, 1, 1}}},
-    {"White", {{1, 1, 1, 1}}},
-    {"Yellow", {{1, 1, 0, 1}}},
-};
 
 /// Of <name>text</name> or <name value="text"/>.
 std::string said(pugi::xml_node element) {
@@ -144,20 +122,14 @@ bool take_surface(pugi::xml_node setting, robot::Link& link) {
 }
 
 bool take_color(pugi::xml_node setting, GazeboSettings& settings) {
-  std::string name = said(setting);
-  constexpr std::string_view kStart = "Gazebo/";
-  if (!name.starts_with(kStart)) {
-    return false;
-  }
-  name = name.substr(kStart.size());
-  const auto known = std::find_if(std::begin(kColors), std::end(kColors),
-                                  [&](const NamedColor& color) { return color.name == name; });
-  if (known == std::end(kColors)) {
+  const std::string name = said(setting);
+  const std::optional<Vec4d> color = gazebo_color(name);
+  if (!color) {
     return false;
   }
   settings.color.emplace();
-  settings.color->name = name;
-  settings.color->color = known->color;
+  settings.color->name = name.substr(name.find('/') + 1);
+  settings.color->color = color;
   settings.colored = setting;
   return true;
 }

@@ -19,6 +19,43 @@
 namespace tenon::urdf {
 namespace {
 
+/// The numbers of a text between `separators`, `count` + 1 at most; none where one is no number.
+std::vector<double> numbers_in(std::string_view text, std::string_view separators,
+                               std::size_t count) {
+  std::vector<double> values;
+  while (values.size() <= count) {
+    const std::size_t begin = text.find_first_not_of(separators);
+    if (begin == std::string_view::npos) {
+      break;
+    }
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    const std::optional<double> value = parse_double(text.substr(begin, end - begin));
+    if (!value) {
+      return {};
+    }
+    values.push_back(*value);
+    text = text.substr(end);
+  }
+  return values;
+}
+
+/// Commas that stand between numbers and are no decimal points: each next to a space, or one in
+/// every gap.
+bool separates(std::string_view text, std::size_t count) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  std::size_t commas = 0;
+  bool apart = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ',') {
+      ++commas;
+      apart = apart && i > 0 && i + 1 < text.size() &&
+              (kSpace.find(text[i - 1]) != std::string_view::npos ||
+               kSpace.find(text[i + 1]) != std::string_view::npos);
+    }
+  }
+  return commas > 0 && (apart || commas + 1 == count);
+}
+
 bool contains(std::initializer_list<std::string_view> list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
@@ -51,7 +88,7 @@ Result<pugi::xml_node> XmlReader::parse() {
 Error XmlReader::broken(std::size_t offset, const std::string& why) const {
   const std::size_t line = line_at(offset);
   return Error(ErrorCode::Parse,
-               "neither URDF nor MJCF can be read from this, it is not valid XML: " + why)
+               "no robot description can be read from this, it is not valid XML: " + why)
       .in_file(file_)
       .at(static_cast<std::uint32_t>(line),
           static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))
@@ -176,23 +213,7 @@ Result<std::vector<double>> XmlReader::numbers(pugi::xml_node element, const cha
   if (!found && !fallback.empty()) {
     return fallback;
   }
-  std::string_view rest = found.value();
-  std::vector<double> values;
-  while (true) {
-    constexpr std::string_view kSpace = " \t\r\n";
-    const std::size_t begin = rest.find_first_not_of(kSpace);
-    if (begin == std::string_view::npos || values.size() > count) {
-      break;
-    }
-    const std::size_t end = std::min(rest.find_first_of(kSpace, begin), rest.size());
-    const std::optional<double> value = parse_double(rest.substr(begin, end - begin));
-    if (!value) {
-      values.clear();
-      break;
-    }
-    values.push_back(*value);
-    rest = rest.substr(end);
-  }
+  std::vector<double> values = numbers_in(found.value(), " \t\r\n", count);
   if (values.size() != count) {
     const std::string_view value = found.value();
     if (value.find("${") != value.npos || value.find("$(") != value.npos) {
@@ -202,13 +223,34 @@ Result<std::vector<double>> XmlReader::numbers(pugi::xml_node element, const cha
                    "expand it first: xacro IN.xacro > OUT.urdf", attribute);
     }
     const std::string wanted = count == 1 ? "a number" : std::to_string(count) + " numbers";
+    const bool comma = value.find(',') != std::string_view::npos;
     return fault(element, found ? "urdf.number" : "urdf.missing",
                  found ? std::string(attribute) + "=\"" + found.value() + "\" is not " + wanted
                        : std::string("needs the attribute ") + attribute,
-                 std::string("write ") + attribute + "=\"...\" with " + wanted,
+                 std::string("write ") + attribute + "=\"...\" with " + wanted +
+                     (comma ? ", separated by spaces" : ""),
                  found ? attribute : "");
   }
   return values;
+}
+
+Result<std::vector<double>> XmlReader::numbers_of(pugi::xml_node owner, pugi::xml_node element,
+                                                  const char* attribute, std::size_t count,
+                                                  std::vector<double> fallback) {
+  const std::string_view written = element.attribute(attribute).value();
+  if (separates(written, count)) {
+    std::vector<double> values = numbers_in(written, " \t\r\n,", count);
+    if (values.size() == count) {
+      warn(element, "urdf.comma",
+           std::string(attribute) + "=\"" + std::string(written) +
+               "\" has commas between its numbers; they are skipped, while ROS's reader skips the "
+               "whole <" +
+               owner.name() + ">",
+           "separate the numbers by spaces", Severity::Warning, attribute);
+      return values;
+    }
+  }
+  return numbers(element, attribute, count, std::move(fallback));
 }
 
 Result<double> XmlReader::number(pugi::xml_node element, const char* attribute,
@@ -226,14 +268,20 @@ Result<Pose> XmlReader::origin(pugi::xml_node element) {
     return pose;
   }
   list_unknown(origin, {"xyz", "rpy", "quat_xyzw"}, {});
-  TENON_TRY(const std::vector<double> xyz, numbers(origin, "xyz", 3, {0, 0, 0}));
+  // A joint that it cannot read makes ROS's reader refuse the robot.
+  const bool is_joint = std::string_view(element.name()) == "joint";
+  const auto three = [&](const char* name) {
+    return is_joint ? numbers(origin, name, 3, {0, 0, 0})
+                    : numbers_of(element, origin, name, 3, {0, 0, 0});
+  };
+  TENON_TRY(const std::vector<double> xyz, three("xyz"));
   pose.position = {{xyz[0], xyz[1], xyz[2]}};
   if (origin.attribute("quat_xyzw")) {
     TENON_TRY(const std::vector<double> q, numbers(origin, "quat_xyzw", 4, {}));
     pose.orientation = normalized(Quatd{q[0], q[1], q[2], q[3]});
     return pose;
   }
-  TENON_TRY(const std::vector<double> rpy, numbers(origin, "rpy", 3, {0, 0, 0}));
+  TENON_TRY(const std::vector<double> rpy, three("rpy"));
   pose.orientation = rotation_of_rpy(rpy[0], rpy[1], rpy[2]);
   return pose;
 }

@@ -15,7 +15,7 @@
 #include "tenon/math/transform.h"
 #include "tenon/robot/robot_model.h"
 
-/// Internal to this folder.
+/// Internal to this folder and tenon/sdf.
 namespace tenon::urdf {
 
 /// An XML document that knows its lines and reads attributes with faults that name them.
@@ -46,6 +46,11 @@ class XmlReader {
   /// empty fallback makes it required.
   Result<std::vector<double>> numbers(pugi::xml_node element, const char* attribute,
                                       std::size_t count, std::vector<double> fallback) const;
+  /// The same, where commas between the numbers are reported and skipped: ROS's reader, urdfdom,
+  /// loads such a file without the element that `owner` is, its visual, collision or inertial.
+  Result<std::vector<double>> numbers_of(pugi::xml_node owner, pugi::xml_node element,
+                                         const char* attribute, std::size_t count,
+                                         std::vector<double> fallback);
   Result<double> number(pugi::xml_node element, const char* attribute,
                         std::optional<double> fallback) const;
   /// The pose that an <origin> child gives; the identity without one.

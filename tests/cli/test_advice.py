@@ -50,6 +50,8 @@ PRINTED_BY = {
     "tenon/asset/simulating/simulate_asset.cpp": RUNS,
     "tenon/asset/tuning": ("tune",),
     "tenon/asset/updating": ("convert", "structure"),
+    "tenon/sdf": ("convert",),
+    "tenon/xacro": ("convert",),
     "tenon/asset/viewing/record_asset.cpp": ("record",),
     "tenon/bake/commands": ("sim",),
     "tenon/bake/record_outputs.cpp": ("sim",),

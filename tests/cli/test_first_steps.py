@@ -45,9 +45,9 @@ FOREIGN = {
                    "tenon convert robot.urdf out/"),
     "model.xml": (MJCF, "an MJCF model", "tenon convert model.xml out/"),
     "world.sdf": ('<?xml version="1.0"?><sdf version="1.9"><model name="m"/></sdf>',
-                  "an SDF model", "export the model as URDF or MJCF"),
+                  "an SDF model", "tenon convert world.sdf out/"),
     "robot.urdf.xacro": ('<robot name="r" xmlns:xacro="x"><xacro:macro name="m"/></robot>',
-                         "a xacro file", "xacro robot.urdf.xacro > out.urdf"),
+                         "a URDF with macros of xacro", "tenon convert robot.urdf.xacro out/"),
     "can.obj": ("# a can\n" + TETRAHEDRON, "an OBJ mesh", "can.obj"),
     "can.stl": ("solid can\n facet normal 0 0 1\n outer loop\n", "an STL mesh", "can.stl"),
     "binary.stl": (b"\xff" * 80 + struct.pack("<I", 1) + bytes(50), "an STL mesh", "binary.stl"),
@@ -121,7 +121,7 @@ class OtherFormats(Case):
                     self.assertNotIn("add the line", text)
 
     def test_convert_names_meshes(self):
-        for name in ("can.obj", "can.stl", "binary.stl", "can.glb", "can.gltf", "world.sdf"):
+        for name in ("can.obj", "can.stl", "binary.stl", "can.glb", "can.gltf"):
             contents, called, _ = FOREIGN[name]
             self.write(name, contents)
             process = self.tenon("convert", name, "out.usda", code=2)

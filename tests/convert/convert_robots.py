@@ -206,7 +206,7 @@ def check_bad_input(work):
     target = work / "bad.usda"
     for name, code, rule in (("cycle", 2, "robot.cycle"), ("missing_mesh", 1, "urdf.mesh-missing"),
                              ("not_a_number", 1, "robot.not-finite"),
-                             ("no_inertial", 1, "convert.massless"), ("macro", 2, "urdf.xacro")):
+                             ("no_inertial", 1, "convert.massless")):
         found, out, err = tenon("convert", URDF / f"{name}.urdf", target)
         expect(f"{name}: exit code", found, code)
         expect(f"{name}: says {rule}", f"[{rule}]" in err, True)

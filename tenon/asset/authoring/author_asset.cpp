@@ -34,7 +34,7 @@ Result<void> check_opens(const AssetArc& arc, const bytes::Files& files) {
       .in_file(arc.file)
       .with_rule("edit.not-a-layer")
       .with_fix("name a .usd, .usda, .usdc or .usdz file; tenon check " + shell_word(name) +
-                " says what is wrong with a USD file, tenon convert reads URDF and MJCF");
+                " says what is wrong with a USD file, tenon convert reads URDF, SDF and MJCF");
 }
 
 Result<AuthoredAsset> author(const std::string& path, const EditOptions& options,

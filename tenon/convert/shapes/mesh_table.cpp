@@ -6,6 +6,9 @@
 // parts, normals, places in images and looks of their own.
 #include "tenon/convert/shapes/mesh_table.h"
 
+#include <array>
+#include <string>
+
 #include "tenon/mesh/mesh_shape.h"
 #include "tenon/mesh/read_mesh.h"
 
@@ -51,6 +54,23 @@ MeshValues values_of(mesh::PolygonMesh mesh, const std::vector<Index>& materials
   return values;
 }
 
+/// Moves the middle of the box around all of them to the origin.
+void center_meshes(std::vector<mesh::PolygonMesh>& meshes) {
+  std::vector<Vec3f> corners;
+  for (const mesh::PolygonMesh& one : meshes) {
+    const std::array<Vec3f, 2> extent = mesh::extent_of(one.points);
+    corners.insert(corners.end(), extent.begin(), extent.end());
+  }
+  const auto [low, high] = mesh::extent_of(corners);
+  for (mesh::PolygonMesh& one : meshes) {
+    for (Vec3f& point : one.points) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        point[i] -= (low[i] + high[i]) / 2;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 const std::vector<MeshValues>& MeshTable::parts(Index mesh) {
@@ -59,6 +79,26 @@ const std::vector<MeshValues>& MeshTable::parts(Index mesh) {
     at->second = read(source_.model.meshes[mesh]);
   }
   return at->second;
+}
+
+void MeshTable::choose_part(const robot::MeshFile& file, std::vector<mesh::PolygonMesh>& meshes) {
+  if (!file.part.empty()) {
+    const std::size_t before = meshes.size();
+    std::string names;
+    for (const mesh::PolygonMesh& one : meshes) {
+      names += (names.empty() ? "\"" : ", \"") + one.name + "\"";
+    }
+    std::erase_if(meshes, [&](const mesh::PolygonMesh& one) { return one.name != file.part; });
+    if (meshes.empty() && before > 0) {
+      layer_.report(file.place, Severity::Error, "convert.mesh-part",
+                    "the mesh \"" + file.written + "\" has no part \"" + file.part +
+                        "\"; the shape is skipped",
+                    "name one of its parts: " + names.substr(0, 1000));
+    }
+  }
+  if (file.centered) {
+    center_meshes(meshes);
+  }
 }
 
 std::vector<MeshValues> MeshTable::read(const robot::MeshFile& file) {
@@ -82,6 +122,7 @@ std::vector<MeshValues> MeshTable::read(const robot::MeshFile& file) {
                   why.fix);
     return parts;
   }
+  choose_part(file, scene->meshes);
   const std::vector<Index> materials = materials_.add(scene->appearances, std::move(scene->images));
   for (mesh::PolygonMesh& part : scene->meshes) {
     parts.push_back(values_of(std::move(part), materials));

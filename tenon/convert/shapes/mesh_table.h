@@ -10,6 +10,7 @@
 #include "tenon/convert/robot_layer.h"
 #include "tenon/convert/shapes/material_writer.h"
 #include "tenon/guard/workers.h"
+#include "tenon/mesh/mesh_scene.h"
 
 /// Internal to this folder.
 namespace tenon::convert {
@@ -43,6 +44,8 @@ class MeshTable {
 
  private:
   std::vector<MeshValues> read(const robot::MeshFile& file);
+  /// Keeps what the description means of a file, where it says that.
+  void choose_part(const robot::MeshFile& file, std::vector<mesh::PolygonMesh>& meshes);
 
   const Source& source_;
   MaterialWriter& materials_;

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Input: text of an SDF file. What can be read is a tree whose indices hold, and converts.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "tenon/convert/convert_robot.h"
+#include "tenon/formats/save_layer.h"
+#include "tenon/robot/check_model.h"
+#include "tenon/sdf/read_sdf.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  for (const std::string_view names_files : {"mesh", "include", "map"}) {
+    if (text.find(names_files) != std::string_view::npos) {
+      return 0;  // files of this machine are no input
+    }
+  }
+  tenon::Diagnostics diagnostics;
+  auto model = tenon::sdf::read_sdf_text(text, "fuzz.sdf", {}, diagnostics);
+  if (!model) {
+    return 0;
+  }
+  if (!tenon::robot::check_model(*model)) {
+    std::abort();
+  }
+  tenon::convert::ConvertOptions options;
+  options.flat = size % 2 == 0;
+  options.merge_fixed = size % 3 == 0;
+  options.schema = tenon::convert::SchemaGeneration::Both;
+  const auto layer = tenon::convert::convert_robot(*std::move(model), options, diagnostics);
+  if (layer && !tenon::formats::encode_layer(*layer, tenon::formats::LayerFormat::Text)) {
+    std::abort();
+  }
+  return 0;
+}
