@@ -72,6 +72,16 @@ def judgements_of_engines():
                                     "build/release/bin/tenon", "docs/robots-hold.md",
                                     "tests/engines_beside/robots_hold_misses.txt"],
                     "release", ["tenon_cli", "tenon_worker"])
+    # Every option on every engine, and exported robots beside their assets, in full.
+    yield Judgement("every_option", ["{python}", "-B", "tests/options/every_option.py", ".",
+                                     "build/release/bin/tenon", "--all"],
+                    "release", ["tenon_cli", "tenon_worker", "tenon_page"])
+    yield Judgement("stepped_beside", ["{python}", "-B", "tests/convert/stepped_beside.py", ".",
+                                       "build/release/bin/tenon", "20"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("watch_costs", ["{python}", "-B", "bench/watch_costs.py", ".",
+                                    "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"])
     # Tuned drives beside the closed form, and multibody algebra beside MuJoCo, in full.
     yield Judgement("tuned_responses", ["{python}", "-B", "tests/tuning/test_responses.py",
                                         "build/release/bin/tenon", "all"],
@@ -113,11 +123,19 @@ def corpora():
                                          "build/release/bin/tenon", "{engine}", *readers],
                         "release", ["tenon_cli", "tenon_worker"],
                         f"tests/convert/requirements-{name}.txt")
+    yield Judgement("simready", ["{python}", "-B", "tests/simready/beside_simready.py", ".",
+                                 "build/release/bin/tenon", "{engine}"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/simready/requirements-simready.txt")
     yield Judgement("robot_corpora", ["{python}", "-B", "tests/convert/robot_corpora.py", ".",
                                       "build/release/bin/tenon", "{engine}",
                                       "docs/robot-corpora.md", "--most", "60"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/convert/requirements-robots.txt")
+    yield Judgement("sdf_beside_drake", ["{engine}", "-B", "tests/convert/sdf_beside_drake.py", ".",
+                                         "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/convert/requirements-sdf.txt")
 
 
 def judgements():
@@ -139,6 +157,12 @@ def judgements():
     yield Judgement("kill_runs", ["{python}", "-B", "tests/output/kill_runs.py",
                                   ".", "build/release/bin/tenon", "--runs", "50", "--pairs", "20"],
                     "release")
+    yield Judgement("power_cuts", ["{python}", "-B", "tests/output/power_cuts.py", ".",
+                                   "build/release/bin/tenon", "--recoveries", "2000"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("determinism", ["{python}", "-B", "tests/output/determinism.py", ".",
+                                    "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"])
     yield mutants("mutants_release", "build/release/bin/tenon", 0)
     yield mutants("mutants_sanitizers", "build/dev/bin/tenon", 50000, ["--sanitized"])
     yield Judgement("labelled", ["ctest", "--preset", "dev", "-L", "judge", "-j", "{jobs}",

@@ -264,6 +264,7 @@ constexpr const char* kCheckFooter =
     "  tenon check hand.usda --fix --dry-run\n"
     "  tenon check hand.usda --fix --suggested\n"
     "  tenon check hand.usda --profile isaac-3.0\n"
+    "  tenon check hand.usda --profile simready --only simready\n"
     "  tenon check hand.usda --for physx,newton\n"
     "  tenon check hand.usda --skip collider.overlap-at-start,units --sarif hand.sarif\n"
     "  tenon check --explain mass.inertia-triangle";
@@ -289,7 +290,8 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
       .one_of(check::known_engines());
   verb.add_option(
           "--profile", options->profile,
-          "Hold the files to this structure of assets as well; without it that of tenon.toml")
+          "Hold the files to this structure of assets, or to these requirements, as well; without "
+          "it that of tenon.toml")
       .one_of(check::known_profiles());
   verb.add_option("--only", options->rules.only,
                   "These rules or families alone (mass, joint.body-missing)")

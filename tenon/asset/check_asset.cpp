@@ -15,6 +15,7 @@
 #include <set>
 
 #include "tenon/asset/check_profile.h"
+#include "tenon/asset/checking/judge_simready.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/bytes/files.h"
 #include "tenon/check/apply_edits.h"
@@ -65,7 +66,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
   run.found.variant = variant.empty() ? run.selection : variant;
   run.found.findings =
       check::check_stage(stage, opening.items(), options.rules, read_options(options.readings));
-  if (!options.profile.empty()) {
+  if (!options.profile.empty() && !is_simready_profile(options.profile)) {
     TENON_TRY(const structure::AssetFiles files, asset_files(path, options.open));
     add_findings(structure::check_files(files), options.rules, run.found.findings);
     add_findings(structure::check_variant(stage, run.found.variant), options.rules,
@@ -174,6 +175,16 @@ Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& op
     runs.push_back(std::move(first.found));
   }
   checked.findings = check::merge_variants(std::move(runs));
+  if (is_simready_profile(options.profile)) {
+    TENON_TRY(check::simready::Judgement judgement,
+              judge_simready(path, options.open, options.profile));
+    for (check::Finding& finding : judgement.findings) {
+      if (options.rules.takes(finding.diagnostic.rule)) {
+        checked.findings.push_back(std::move(finding));
+      }
+    }
+    checked.codes = std::move(judgement.verdicts);
+  }
   std::vector<Diagnostic*> found;
   for (check::Finding& finding : checked.findings) {
     found.push_back(&finding.diagnostic);

@@ -9,6 +9,7 @@
 #include "tenon/base/result.h"
 #include "tenon/check/check_stage.h"
 #include "tenon/check/finding.h"
+#include "tenon/check/simready/verdict.h"
 #include "tenon/open_stage.h"
 
 /// Files checked and corrected: the rules of tenon/check over all Physics variants of an asset.
@@ -18,13 +19,16 @@ struct CheckOptions {
   OpenOptions open;  ///< with a physics_variant only that one is looked at
   check::Selection rules;
   physics::Readings readings;  ///< how the physics is read
-  /// "isaac-3.0": the files are checked against Asset Structure 3.0 as well; empty: no structure.
+  /// "isaac-3.0": the files are checked against Asset Structure 3.0 as well; "simready" and the
+  /// like (tenon/asset/checking/judge_simready.h): the requirements of SimReady; empty: neither.
   std::string profile;
 };
 
 struct CheckedAsset {
   std::vector<std::string> variants;  ///< of "Physics" that were looked at; empty: no such set
   std::vector<check::Finding> findings;
+  /// Of the requirements of a profile that has codes, sorted by code; empty: it has none.
+  std::vector<check::simready::CodeVerdict> codes{};
 };
 
 /// Opens the asset under each variant of its default prim's set "Physics", and as it opens by

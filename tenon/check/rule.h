@@ -43,7 +43,8 @@ struct Rule {
 /// Engines that rules of portability know: "isaac", "mujoco", "newton", "physx".
 const std::vector<std::string>& known_engines();
 
-/// Structures that files of assets can be checked against: "isaac-3.0".
+/// What files of assets can be checked against: the structure "isaac-3.0", and "simready" and the
+/// like, NVIDIA's requirements (tenon/check/simready).
 std::vector<std::string> known_profiles();
 
 /// All rules, sorted by id.

@@ -76,7 +76,11 @@ const std::vector<std::string>& known_engines() {
   return names;
 }
 
-std::vector<std::string> known_profiles() { return {"isaac-3.0"}; }
+std::vector<std::string> known_profiles() {
+  return {"isaac-3.0",           "simready",      "simready@2026.8",
+          "simready-robot",      "simready-prop", "simready-robot@2026.8",
+          "simready-prop@2026.8"};
+}
 
 std::string_view current_id(std::string_view id) {
   for (const auto& [former, current] : kFormerIds) {

@@ -10,9 +10,8 @@ namespace tenon::settings {
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> table{
-      {"check.profile", KeyType::Choice,
-       "tenon check also checks the files against this structure of assets", "--profile",
-       "[check]\nprofile = \"isaac-3.0\"", &check::known_profiles, &Settings::profile},
+      {"check.profile", KeyType::Choice, "tenon check also checks the files against this profile",
+       "--profile", "[check]\nprofile = \"isaac-3.0\"", &check::known_profiles, &Settings::profile},
       {"check.skip", KeyType::Skips,
        "tenon check counts the findings of these rules and does not report them; each rule has "
        "its reason",

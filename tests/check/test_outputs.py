@@ -157,7 +157,7 @@ class Outputs(unittest.TestCase):
                          {"severity", "rule", "message", "file", "line", "column",
                           "endLine", "endColumn", "prim",
                           "property", "fix", "related", "variants", "numbers", "engines",
-                          "autofix", "suggestedFix", "suppressed"})
+                          "autofix", "suggestedFix", "suppressed", "code"})
         self.assertEqual(answer["diagnostics"][0]["numbers"], "S-45, M-19")
         self.assertEqual(answer["summary"], {"errors": 0, "warnings": 1, "infos": 0, "fixable": 0,
                                              "suggested": 0, "suppressed": 0})

@@ -43,9 +43,10 @@ class AssetsCheck {
     if (!options_.correct || (changed && options_.write)) {
       checked = check_asset(path, asset_options_);
     }
-    result_.assets.push_back({path, checked.has_value(),
-                              checked ? checked->variants : std::vector<std::string>(),
-                              settings == nullptr ? "" : settings->file});
+    result_.assets.push_back(
+        {path, checked.has_value(), checked ? checked->variants : std::vector<std::string>(),
+         settings == nullptr ? "" : settings->file,
+         checked ? checked->codes : std::vector<check::simready::CodeVerdict>()});
     if (!checked) {
       add(checked.error().diagnostic());
       for (const Diagnostic& further : checked.error().further()) {

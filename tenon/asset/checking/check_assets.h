@@ -31,8 +31,9 @@ struct CheckAssetsOptions {
 struct AssetChecked {
   std::string path;
   bool opened = true;
-  std::vector<std::string> variants;  ///< of "Physics" that were looked at
-  std::string settings;               ///< its tenon.toml; empty: none was read
+  std::vector<std::string> variants;                  ///< of "Physics" that were looked at
+  std::string settings;                               ///< its tenon.toml; empty: none was read
+  std::vector<check::simready::CodeVerdict> codes{};  ///< CheckedAsset::codes
 };
 
 /// Findings that a settings file skips.

@@ -7,6 +7,7 @@
 #include "tenon/base/text/shown_path.h"
 #include "tenon/check/fixes.h"
 #include "tenon/check/rule.h"
+#include "tenon/check/simready/requirement.h"
 
 namespace tenon {
 namespace {
@@ -34,7 +35,20 @@ Json finding_json(const ReportedFinding& reported) {
   item["autofix"] = finding.fix ? Json(finding.fix->what) : Json(nullptr);
   item["suggestedFix"] = finding.suggestion ? Json(finding.suggestion->what) : Json(nullptr);
   item["suppressed"] = reported.suppressed;
+  const auto* requirement = check::simready::find_requirement(finding.diagnostic.rule);
+  item["code"] = requirement == nullptr ? Json(nullptr) : Json(requirement->full_code());
   return item;
+}
+
+/// What became of each requirement of a profile with codes; null where it has none.
+Json codes_json(const std::vector<check::simready::CodeVerdict>& codes) {
+  Json list = Json::array();
+  for (const check::simready::CodeVerdict& one : codes) {
+    list.push_back({{"code", one.requirement->full_code()},
+                    {"verdict", check::simready::verdict_name(one.verdict)},
+                    {"reason", one.reason.empty() ? Json(nullptr) : Json(one.reason)}});
+  }
+  return list.empty() ? Json(nullptr) : list;
 }
 
 /// The files that are corrected, with what changes in those that are text.
@@ -77,7 +91,8 @@ Json checked_json(const CheckedAssets& checked, std::string_view corrected_key) 
         {{"asset", shown_path(asset.path)},
          {"opened", asset.opened},
          {"variants", asset.variants},
-         {"settings", asset.settings.empty() ? Json(nullptr) : Json(shown_path(asset.settings))}});
+         {"settings", asset.settings.empty() ? Json(nullptr) : Json(shown_path(asset.settings))},
+         {"codes", codes_json(asset.codes)}});
   }
   body["skipped"] = skipped_json(checked.skipped);
   if (!corrected_key.empty()) {

@@ -10,9 +10,9 @@
 namespace tenon {
 
 /// {"diagnostics": rows of diagnostic_json and "variants", "numbers", "autofix", "suggestedFix",
-/// "suppressed";
+/// "suppressed", "code";
 /// "summary": {"errors", "warnings", "infos", "fixable", "suggested", "suppressed"}, "assets":
-/// [{"asset", "opened", "variants", "settings"}], "skipped": [{"rule", "reason", "count",
+/// [{"asset", "opened", "variants", "settings", "codes"}], "skipped": [{"rule", "reason", "count",
 /// "settings"}]}, and what was corrected: [{"file", "diff"}], under the key `corrected_key`, unless
 /// that is empty.
 answers::Json checked_json(const CheckedAssets& checked, std::string_view corrected_key);
