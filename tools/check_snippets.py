@@ -2,7 +2,9 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """Every C++ snippet of docs/cpp is a part of a program in examples/cpp, line by line, so that what
-is copied compiles and runs; and every one of those programs is shown somewhere. No console block
+is copied compiles and runs; and every one of those programs is shown somewhere. A name that the
+program shortens (`using tenon::layer::Value;`, `namespace fs = std::filesystem;`) is shortened on
+the page too, before it is used there. No console block
 of any page shows a command that fails, unless the line before the block says why it should:
 
     <!-- meant to fail: the two versions differ -->
@@ -39,6 +41,22 @@ def failures(path, text):
             yield f"{path}:{line}: nothing in this block fails; remove the mark"
 
 
+#: What gives a name its short form, and that name.
+SHORT = re.compile(r"^(?:using [\w:]+::(\w+);|namespace (\w+) = [\w:]+;|using (\w+) = .*;)$")
+
+
+def unexplained(program, snippet, shown):
+    """Lines of `program` that shorten a name which `snippet` uses, and which the page does not have
+    up to here (`shown`, its lines)."""
+    text = "\n".join(snippet)
+    for line in program:
+        match = SHORT.match(line.strip())
+        if match and line.strip() not in shown:
+            name = match[1] or match[2] or match[3]
+            if re.search(rf"(?<![\w:.>]){name}\b", text):
+                yield line.strip()
+
+
 def has_part(program, snippet):
     """`snippet` stands in `program` as it is, moved to the right as a whole or not."""
     size = len(snippet)
@@ -59,14 +77,19 @@ def check(root):
                 for path in glob.glob(os.path.join(root, "examples/cpp/*.cpp"))}
     faults, shown, count = [], set(), 0
     for page in sorted(glob.glob(os.path.join(root, "docs/cpp/*.md"))):
-        text = read(page)
+        text, lines = read(page), set()
         for match in SNIPPET.finditer(text):
             count += 1
             snippet = match[1].rstrip("\n").split("\n")
+            lines |= {each.strip() for each in snippet}
             found = {name for name, program in programs.items() if has_part(program, snippet)}
             shown |= found
+            line = text.count("\n", 0, match.start()) + 1
+            lacking = [set(unexplained(programs[name], snippet, lines)) for name in found]
+            if lacking and all(lacking):  # of several programs one will do
+                faults += [f"{os.path.relpath(page, root)}:{line}: this does not compile without "
+                           f"`{each}`; show that line, too" for each in sorted(lacking[0])]
             if not found:
-                line = text.count("\n", 0, match.start()) + 1
                 faults.append(f"{os.path.relpath(page, root)}:{line}: no program in examples/cpp "
                               "has this snippet; copy it from one")
     faults += [f"examples/cpp/{name}:1: no page of docs/cpp shows a part of it"

@@ -304,6 +304,16 @@ class Snippets(unittest.TestCase):
         for bad in ("third();\n", "first();\nsecond();\n", "  first();\n"):
             self.assertEqual(len(self.faults(bad)), 2, bad)
 
+    def test_short_names_are_explained(self):
+        program = ("using a::layer::Value;\nnamespace fs = std::filesystem;\n\n"
+                   "void f() {\n  Value v = b::Value(1);\n  g(x.fs);\n}\n")
+        shown = "using a::layer::Value;\n```\n\n```cpp\n"
+        for snippet, faults in (("Value v = b::Value(1);\n", 1), ("g(x.fs);\n", 0),
+                                (shown + "Value v = b::Value(1);\n", 0), (program, 0)):
+            page = f"```cpp\n{snippet}```\n"
+            with tree({"docs/cpp/a.md": page, "examples/cpp/a.cpp": program}) as root:
+                self.assertEqual(len(check_snippets.check(root)[1]), faults, snippet)
+
     def test_a_recorded_failure_is_refused_unless_it_is_meant(self):
         mark = "<!-- meant to fail: they differ -->\n"
         block = "```console\n$ true\n$ {}\n{}```\n"

@@ -14,4 +14,5 @@ def main() -> None:
     if package is None or package.origin is None:
         sys.exit("tenon: the package tenon_usd is not installed for " + sys.executable)
     program = os.path.join(os.path.dirname(package.origin), "bin", "tenon")
-    os.execve(program, sys.argv, {"TENON_PYTHON": sys.executable, **os.environ})
+    named = os.environ.get("TENON_PYTHON") or sys.executable
+    os.execve(program, sys.argv, {**os.environ, "TENON_PYTHON": named})

@@ -3,6 +3,8 @@
 #include "batch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "tenon/asset/physics_options.h"
@@ -119,6 +121,30 @@ Result<void> Batch::vary(std::size_t i) {
   for (std::size_t v = 0; v < variations.size(); ++v) {
     TENON_CHECK(vary_world(variations[v], drawn[i][v], *scene, world(i)));
   }
+  return {};
+}
+
+Result<void> Batch::set_drawn(std::size_t i, std::vector<std::vector<double>> numbers) {
+  const auto bad = [](const std::string& what) {
+    return Error(ErrorCode::Invalid, what).with_rule("vary.bad-numbers");
+  };
+  if (numbers.size() != variations.size()) {
+    return bad(std::to_string(numbers.size()) + " rows of numbers for " +
+               std::to_string(variations.size()) + " variations");
+  }
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    if (numbers[v].size() != drawn[i][v].size() ||
+        !std::all_of(numbers[v].begin(), numbers[v].end(),
+                     [](double number) { return std::isfinite(number); })) {
+      return bad("the numbers of " + variations[v].text + " are not " +
+                 std::to_string(drawn[i][v].size()) + ", or not finite");
+    }
+    if (variations[v].place == VariationPlace::Field && numbers[v] != drawn[i][v]) {
+      return bad(variations[v].text +
+                 " is of the model, which is made once: it cannot be drawn anew");
+    }
+  }
+  drawn[i] = std::move(numbers);
   return {};
 }
 

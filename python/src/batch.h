@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interruptions.h"
 #include <nanobind/nanobind.h>
 
 #include "tenon/asset/many_environments/variation.h"
@@ -48,8 +49,12 @@ class Batch {
   std::size_t size() const { return environments->size(); }
   engines::World& world(std::size_t i) { return (*environments)[i]; }
   Result<void> reset(std::size_t i);
+  /// What environment i draws from its next reset on: numbers for each variation, as many as it
+  /// drew; of fields of the scene those that it has. Errors: Invalid.
+  Result<void> set_drawn(std::size_t i, std::vector<std::vector<double>> numbers);
 
-  std::mutex mutex;
+  std::recursive_mutex mutex;  ///< again from handlers of signals, between two steps
+  BlockStepper stepper;
   Diagnostics diagnostics;
   std::string engine;
   std::string engine_version;

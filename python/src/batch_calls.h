@@ -19,7 +19,7 @@ namespace tenon::python {
 template <class Call>
 auto with(Batch& batch, const Call& call) {
   return unlocked([&] {
-    const std::lock_guard<std::mutex> held(batch.mutex);
+    const std::lock_guard held(batch.mutex);
     return call();
   });
 }

@@ -156,6 +156,72 @@ nb::list sensors(Batch& batch, std::size_t i) {
   return rows;
 }
 
+// ---- outputs of all environments
+
+/// Fills a new array with what `read(world, to)` puts there for one environment after the other.
+template <class Read>
+nb::object of_each(Batch& batch, NewArray<> made, const Read& read) {
+  or_raise(with(batch, [&]() -> Result<void> {
+    double* to = made.numbers.data();
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      TENON_CHECK(read(batch.world(i), to));
+    }
+    return {};
+  }));
+  return made.take();
+}
+
+nb::object joint_reactions(Batch& batch) {
+  const std::size_t joints = batch.scene->joints.size();
+  return of_each(batch, NewArray<>({batch.size(), joints, 6}),
+                 [&](const engines::World& world, double*& to) -> Result<void> {
+                   for (scene::Index j = 0; j < joints; ++j) {
+                     TENON_TRY(const engines::Wrench wrench, world.joint_reaction(j));
+                     put(wrench.force, to);
+                     put(wrench.torque, to);
+                   }
+                   return {};
+                 });
+}
+
+nb::object body_accelerations(Batch& batch) {
+  const std::size_t bodies = batch.scene->bodies.size();
+  return of_each(batch, NewArray<>({batch.size(), bodies, 6}),
+                 [&](const engines::World& world, double*& to) -> Result<void> {
+                   for (scene::Index b = 0; b < bodies; ++b) {
+                     TENON_TRY(const engines::BodyAcceleration found, world.body_acceleration(b));
+                     put(found.linear, to);
+                     put(found.angular, to);
+                   }
+                   return {};
+                 });
+}
+
+nb::object joint_accelerations(Batch& batch) {
+  return of_each(batch, NewArray<>({batch.size(), batch.coordinates.size()}),
+                 [&](const engines::World& world, double*& to) -> Result<void> {
+                   for (scene::Index j = 0; j < batch.scene->joints.size(); ++j) {
+                     TENON_TRY(const std::vector<double> found, world.joint_acceleration(j));
+                     to = std::copy(found.begin(), found.end(), to);
+                   }
+                   return {};
+                 });
+}
+
+/// The parts of Work in the order of WORK of tenon_usd/world.py.
+nb::object work(Batch& batch) {
+  return of_each(
+      batch, NewArray<>({batch.size(), 7}),
+      [](const engines::World& world, double*& to) -> Result<void> {
+        TENON_TRY(const engines::Work work, world.work());
+        for (const double part : {work.drives, work.applied, work.contacts, work.constraints,
+                                  work.damping, work.springs, work.changes}) {
+          *to++ = part;
+        }
+        return {};
+      });
+}
+
 nb::list events(Batch& batch, std::size_t i) {
   check_environment(batch, i);
   const auto found = with(batch, [&] { return batch.world(i).events(); });
@@ -200,6 +266,13 @@ void bind_outputs(nb::class_<Batch>& batch) {
   batch.def("contact_counts", &contact_counts, nb::sig("def contact_counts(self) -> NDArray[Any]"));
   batch.def("sensors", &sensors, "environment"_a,
             nb::sig("def sensors(self, environment: int) -> list[dict[str, Any]]"));
+  batch.def("joint_reactions", &joint_reactions,
+            nb::sig("def joint_reactions(self) -> NDArray[Any]"));
+  batch.def("body_accelerations", &body_accelerations,
+            nb::sig("def body_accelerations(self) -> NDArray[Any]"));
+  batch.def("joint_accelerations", &joint_accelerations,
+            nb::sig("def joint_accelerations(self) -> NDArray[Any]"));
+  batch.def("work", &work, nb::sig("def work(self) -> NDArray[Any]"));
   batch.def("events", &events, "environment"_a,
             nb::sig("def events(self, environment: int) -> list[dict[str, Any]]"));
   batch.def("to_mjcf", &to_mjcf, "environment"_a, "folder"_a,

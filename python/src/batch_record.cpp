@@ -207,7 +207,8 @@ nb::tuple record(Batch& batch, const Readings& readings, std::size_t steps, std:
   or_raise(with(batch, [&]() -> Result<void> {
     double* to = made.numbers.data();
     for (std::size_t sample = 0; sample < samples && failed < batch.size(); ++sample) {
-      failed = batch.environments->step(std::min(every, steps - sample * every));
+      failed = batch.stepper.step(*batch.environments, std::min(every, steps - sample * every));
+      batch.stepper.look();
       if (failed < batch.size()) {
         TENON_CHECK(read_row(batch, columns, to));
       }

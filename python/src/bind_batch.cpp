@@ -115,7 +115,7 @@ nb::list paths_of(const std::vector<Object>& objects) {
 // ---- steps
 
 std::size_t step(Batch& batch, std::size_t count) {
-  return with(batch, [&] { return batch.environments->step(count); });
+  return with(batch, [&] { return batch.stepper.step(*batch.environments, count); });
 }
 
 void reset(Batch& batch, const std::vector<std::size_t>& which) {
@@ -454,20 +454,29 @@ BatchOptions batch_options(const std::string& engine, std::size_t count, std::si
   return options;
 }
 
+/// Large scenes take long: on a thread that Ctrl-C leaves.
+std::unique_ptr<Batch> made_batch(const std::string& path, const OpenOptions& open,
+                                  const physics::Readings& readings, const BatchOptions& options) {
+  using Call = LeavableCall<std::unique_ptr<Batch>>;
+  const auto call = std::make_shared<Call>();
+  return or_raise(unlocked([&] {
+    return (*call)([=](Leavable&) { return Batch::make(path, open, readings, options); });
+  }));
+}
+
 std::unique_ptr<Batch> make_batch(const std::filesystem::path& path, const OpenArguments& arguments,
                                   const BatchOptions& options) {
-  const physics::Readings readings = readings_of(arguments);
-  return or_raise(
-      unlocked([&] { return Batch::make(path.string(), arguments.open, readings, options); }));
+  return made_batch(path.string(), arguments.open, readings_of(arguments), options);
 }
 
 /// Of the scene as it is edited now; later edits change nothing of it.
 std::unique_ptr<Batch> make_batch_of(OpenedStage& stage, const BatchOptions& options) {
-  const auto access = stage.access();
-  return or_raise(unlocked([&]() -> Result<std::unique_ptr<Batch>> {
-    TENON_TRY(const OpenOptions open, stage.options_as_edited());
-    return Batch::make(stage.path(), open, stage.readings(), options);
-  }));
+  OpenOptions open;
+  {
+    const auto access = stage.access();
+    open = or_raise(unlocked([&] { return stage.options_as_edited(); }));
+  }
+  return made_batch(stage.path(), open, stage.readings(), options);
 }
 
 void bind_facts(nb::class_<Batch>& batch) {
@@ -498,6 +507,23 @@ void bind_facts(nb::class_<Batch>& batch) {
   batch.def(
       "drawn", [](const Batch& self) { return self.drawn; },
       "What each environment drew for each variation.");
+  batch.def(
+      "set_drawn",
+      [](Batch& self, std::size_t i, const std::vector<std::vector<double>>& numbers) {
+        check_environment(self, i);
+        or_raise(with(self, [&] { return self.set_drawn(i, numbers); }));
+      },
+      "environment"_a, "numbers"_a);
+  batch.def(
+      "variations",
+      [](const Batch& self) {
+        nb::list names;
+        for (const Variation& variation : self.variations) {
+          names.append(text(variation.text));
+        }
+        return names;
+      },
+      nb::sig("def variations(self) -> list[str]"), "What is varied, without its range.");
 }
 
 }  // namespace

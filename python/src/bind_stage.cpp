@@ -1,19 +1,22 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stages and prims of Python. A prim is a stage and a path that is looked up each time, so that it
-// may be kept for as long as one likes, edits included; a query of a prim that is gone raises.
+// Stages and prims of Python: what is read (bind_edits.cpp: what is changed). A prim is a stage and
+// a path that is looked up each time, so that it may be kept for as long as one likes, edits
+// included; a query of a prim that is gone raises.
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bind_edits.h"
 #include "failure.h"
 #include "guarded_write.h"
 #include "json.h"
 #include "opened_stage.h"
 #include "options.h"
 #include "physics.h"
+#include "prim_of.h"
 #include "stage_answers.h"
 #include "values.h"
 #include <nanobind/nanobind.h>
@@ -29,33 +32,10 @@
 namespace tenon::python {
 namespace {
 
-using StagePtr = std::shared_ptr<OpenedStage>;
 using namespace nb::literals;
 
 stage::Time time_of(std::optional<double> time) {
   return time ? stage::Time(*time) : stage::Time();
-}
-
-Path path_of(const std::string& written) { return or_raise(Path::parse(written)); }
-
-/// A prim as Python holds it.
-struct PrimOf {
-  StagePtr stage;
-  Path path;
-
-  bool operator==(const PrimOf&) const = default;
-};
-
-/// Calls with the prim; raises where it is not there any more.
-template <class Call>
-auto with_prim(const PrimOf& prim, const Call& call) {
-  const auto stage = prim.stage->access();
-  const stage::Prim found = stage->prim(prim.path);
-  if (!found) {
-    raise(Error(ErrorCode::NotFound, "there is no prim <" + prim.path.str() + ">")
-              .with_rule("edit.no-prim"));
-  }
-  return call(found);
 }
 
 PrimOf prim_of(const StagePtr& stage, const std::string& written) {
@@ -68,19 +48,6 @@ nb::list paths_of(const std::vector<Path>& paths) {
   nb::list result;
   for (const Path& path : paths) {
     result.append(text(path.str()));
-  }
-  return result;
-}
-
-template <class Names>
-nb::list words_of(const Names& names) {
-  nb::list result;
-  for (const auto& name : names) {
-    if constexpr (requires { name.str(); }) {
-      result.append(text(name.str()));
-    } else {
-      result.append(text(name));
-    }
   }
   return result;
 }
@@ -99,80 +66,6 @@ nb::object value_of(const PrimOf& prim, const std::string& name, std::optional<d
     }
     return to_python(attribute.get(time_of(time)));
   });
-}
-
-nb::list edited(OpenedStage& stage, const std::vector<AssetEdit>& edits) {
-  const auto access = stage.access();
-  Diagnostics found;
-  auto places = or_raise(unlocked([&] { return stage.edit(edits, found); }), found);
-  nb::list rows;
-  for (const EditedPlace& place : places) {
-    nb::dict row;
-    row["file"] = text(place.file);
-    row["spec"] = text(place.spec.str());
-    row["why"] = message(place.why);
-    row["before"] = text(place.before);
-    row["after"] = text(place.after);
-    row["variants"] = words_of(place.variants);
-    rows.append(row);
-  }
-  return rows;
-}
-
-/// A value of Python as text layers write it.
-std::string as_text(const char* function, const nb::object& value) {
-  return nb::cast<std::string>(nb::module_::import_("tenon_usd.text").attr(function)(value));
-}
-
-nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object& value,
-                   const std::string& engine, const std::string& layer,
-                   const std::string& type_name) {
-  const bool targets =
-      with_prim(prim, [&](const stage::Prim& found) { return found.is_relationship(name); });
-  AssetEdit edit;
-  edit.kind = AssetEdit::Kind::SetProperty;
-  edit.object = prim.path.property(name);
-  edit.value = as_text(targets ? "as_targets" : "as_text", value);
-  edit.engine = engine;
-  edit.layer = layer;
-  if (!type_name.empty()) {
-    edit.type_name = type_name;
-  }
-  return edited(*prim.stage, {edit});
-}
-
-nb::list edit_api(const PrimOf& prim, const std::string& schema, AssetEdit::Kind kind) {
-  AssetEdit edit;
-  edit.kind = kind;
-  edit.object = prim.path;
-  edit.api = schema;
-  return edited(*prim.stage, {edit});
-}
-
-PrimOf define_prim(const StagePtr& stage, const std::string& path, const std::string& type) {
-  AssetEdit edit;
-  edit.kind = AssetEdit::Kind::DefinePrim;
-  edit.object = path_of(path);
-  edit.type_name = type;
-  edited(*stage, {edit});
-  return {stage, edit.object};
-}
-
-void remove_prim(const PrimOf& prim) {
-  AssetEdit edit;
-  edit.kind = AssetEdit::Kind::RemovePrim;
-  edit.object = prim.path;
-  edited(*prim.stage, {edit});
-}
-
-nb::list saved(OpenedStage& stage) {
-  const auto access = stage.access();
-  const auto files = or_raise(unlocked([&] { return stage.save(); }));
-  nb::list names;
-  for (const EditedFile& file : files) {
-    names.append(text(file.path));
-  }
-  return names;
 }
 
 nb::object flattened(OpenedStage& stage, const std::optional<std::filesystem::path>& output) {
@@ -231,47 +124,6 @@ void bind_prim_values(nb::class_<PrimOf>& prim) {
       "__getitem__",
       [](const PrimOf& self, const std::string& name) { return value_of(self, name, {}); },
       "name"_a, "The same at the default time, in the units of the stage.");
-  prim.def("set", &set_value, "name"_a, "value"_a, nb::kw_only(), "engine"_a = "", "layer"_a = "",
-           "type_name"_a = "",
-           nb::sig("def set(self, name: str, value: object, *, engine: str = '', layer: str = '', "
-                   "type_name: str = '') -> list[dict[str, Any]]"),
-           "Sets a property in the file that owns it, in memory until save(): a value in the units "
-           "of the stage, with the types of get(); None blocks it; of a relationship a list of "
-           "paths. `engine` (\"physx\", \"mujoco\") or `layer` name another file; `type_name` "
-           "(\"double3\") makes an attribute that nobody knows. Returns where it went: a list of "
-           "{\"file\", \"spec\", \"why\", \"before\", \"after\", \"variants\"}.");
-  prim.def(
-      "__setitem__",
-      [](const PrimOf& self, const std::string& name, const nb::object& value) {
-        set_value(self, name, value, "", "", "");
-      },
-      "name"_a, "value"_a, "The same, in the file that owns the property.");
-  prim.def(
-      "clear",
-      [](const PrimOf& self, const std::string& name) {
-        AssetEdit edit;
-        edit.kind = AssetEdit::Kind::ClearProperty;
-        edit.object = self.path.property(name);
-        return edited(*self.stage, {edit});
-      },
-      "name"_a, nb::sig("def clear(self, name: str) -> list[dict[str, Any]]"),
-      "Takes the strongest opinion about a property away. Returns what set() returns.");
-  prim.def(
-      "apply",
-      [](const PrimOf& self, const std::string& schema) {
-        return edit_api(self, schema, AssetEdit::Kind::ApplyApi);
-      },
-      "schema"_a, nb::sig("def apply(self, schema: str) -> list[dict[str, Any]]"),
-      "Applies an API schema: \"PhysicsMassAPI\", \"PhysicsDriveAPI:angular\". Returns what set() "
-      "returns.");
-  prim.def(
-      "unapply",
-      [](const PrimOf& self, const std::string& schema) {
-        return edit_api(self, schema, AssetEdit::Kind::RemoveApi);
-      },
-      "schema"_a, nb::sig("def unapply(self, schema: str) -> list[dict[str, Any]]"),
-      "Takes an API schema away. Returns what set() returns.");
-  prim.def("remove", &remove_prim, "Takes the prim away from all files of the asset.");
 }
 
 void bind_prim_place(nb::class_<PrimOf>& prim) {
@@ -393,32 +245,7 @@ void bind_prim(nb::module_& module) {
   });
   prim.def("__hash__", [](const PrimOf& self) { return std::hash<Path>()(self.path); });
   bind_prim_values(prim);
-}
-
-void bind_stage_edits(nb::class_<OpenedStage>& stage) {
-  stage.def("define", &define_prim, "path"_a, "type_name"_a = "Xform",
-            "Makes a prim of a type below one that is there, in memory until save().");
-  stage.def(
-      "undo",
-      [](OpenedStage& self) {
-        const auto access = self.access();
-        return or_raise(unlocked([&] { return self.undo(); }));
-      },
-      "Takes the last edit back; False where there is none since the last save().");
-  stage.def(
-      "redo",
-      [](OpenedStage& self) {
-        const auto access = self.access();
-        return or_raise(unlocked([&] { return self.redo(); }));
-      },
-      "Does again what undo() took back; False where there is nothing.");
-  stage.def("save", &saved, nb::sig("def save(self) -> list[str]"),
-            "Writes the files that edits changed, all or none; their names. Comments and layout of "
-            "text layers stay.");
-  stage.def("flatten", &flattened, "path"_a = nb::none(),
-            nb::sig("def flatten(self, path: str | os.PathLike[str] | None = None) -> str | None"),
-            "The whole scene as one layer without composition: its text, or written to a file "
-            "(.usda, .usdc, .usd, .usdz), not one of those that were read.");
+  bind_prim_edits(prim);
 }
 
 void bind_stage_facts(nb::class_<OpenedStage>& stage) {
@@ -471,6 +298,12 @@ void bind_stage_facts(nb::class_<OpenedStage>& stage) {
       nb::sig("def layers(self) -> list[str]"), "Files that were opened, sorted.");
   stage.def("__repr__",
             [](const OpenedStage& self) { return message("<Stage " + self.path() + ">"); });
+  stage.def(
+      "_repr_html_",
+      [](nb::handle self) {
+        return nb::module_::import_("tenon_usd._lists").attr("html_of_stage")(self);
+      },
+      nb::sig("def _repr_html_(self) -> str"), "A table for notebooks.");
 }
 
 StagePtr open(const std::filesystem::path& path, const OpenArguments& arguments) {
@@ -485,7 +318,11 @@ void bind_stage(nb::module_& module) {
                                 "units of the stage; physics is in SI and radians.");
   bind_prim(module);
   bind_stage_facts(stage);
-  bind_stage_edits(stage);
+  bind_stage_edits(module, stage);
+  stage.def("flatten", &flattened, "path"_a = nb::none(),
+            nb::sig("def flatten(self, path: str | os.PathLike[str] | None = None) -> str | None"),
+            "The whole scene as one layer without composition: its text, or written to a file "
+            "(.usda, .usdc, .usd, .usdz), not one of those that were read.");
   bind_stage_answers(stage);
   module.def("open_stage", &open, "path"_a, "arguments"_a,
              nb::sig("def open_stage(path: str | os.PathLike[str], "

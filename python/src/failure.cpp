@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "failure.h"
 
+#include <array>
+#include <cctype>
 #include <string>
+#include <string_view>
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
@@ -46,6 +49,45 @@ nb::str decoded(std::string_view bytes, const char* errors) {
   return nb::steal<nb::str>(made);
 }
 
+/// What the library says to those who write C++ or type commands, as Python has it.
+struct Words {
+  std::string_view from;
+  std::string_view to;
+};
+constexpr std::array kWords{
+    Words{"switch it on in SimulationOptions::outputs when the simulation is made",
+          "ask for it when the world is made: World(..., outputs=[...])"},
+    Words{"other SimulationOptions::drives", "other drives"},
+    Words{"other SimulationOptions::methods", "another integrator or solver"},
+    Words{"--in or --engine", "layer= or engine="},
+    Words{"--in", "layer="},
+    Words{"--conflicts source", "conflicts=\"source\""},
+    Words{"--conflicts edits", "conflicts=\"edits\""},
+    Words{"--force", "force=True"},
+    Words{"--update", "update=True"},
+    Words{"--search-path", "search_paths="},
+    Words{"--allow-read", "allow_read="},
+    Words{"--package", "packages="},
+    Words{"--engines", "engines="},
+};
+
+/// A whole option, and not the beginning of a longer one.
+bool is_whole(const std::string& text, std::size_t end) {
+  return end == text.size() ||
+         (text[end] != '-' && std::isalnum(static_cast<unsigned char>(text[end])) == 0);
+}
+
+void say_in_python(std::string& text) {
+  for (const Words& words : kWords) {
+    for (std::size_t at = text.find(words.from); at != std::string::npos;
+         at = text.find(words.from, at + 1)) {
+      if (is_whole(text, at + words.from.size())) {
+        text.replace(at, words.from.size(), words.to);
+      }
+    }
+  }
+}
+
 template <class Field>
 void add_text(nb::class_<Diagnostic>& bound, const char* name, Field Diagnostic::* field,
               const char* meaning) {
@@ -67,7 +109,9 @@ nb::list to_list(const Diagnostics& diagnostics) {
     });
   }
   nb::list rows;
-  for (const Diagnostic& finding : placed) {
+  for (Diagnostic& finding : placed) {
+    say_in_python(finding.message);
+    say_in_python(finding.fix);
     rows.append(nb::cast(finding));
   }
   return rows;
@@ -92,6 +136,89 @@ void raise(const Error& error, const Diagnostics& found) {
 
 namespace {
 
+// ---- pickles: a version, and every member; texts as bytes, whatever they are
+
+constexpr int kPickleVersion = 1;
+
+nb::bytes packed(const std::string& text) { return nb::bytes(text.data(), text.size()); }
+std::string unpacked(nb::handle state) {
+  const auto held = nb::cast<nb::bytes>(state);
+  return {held.c_str(), held.size()};
+}
+
+void check_state(const nb::tuple& state, std::size_t size) {
+  if (state.size() != size || nb::cast<int>(state[0]) != kPickleVersion) {
+    throw nb::value_error("a finding of another version of tenon_usd");
+  }
+}
+
+template <class Enum>
+Enum enum_of(nb::handle state, Enum last) {
+  const int number = nb::cast<int>(state);
+  if (number < 0 || number > static_cast<int>(last)) {
+    throw nb::value_error("a finding of another version of tenon_usd");
+  }
+  return static_cast<Enum>(number);
+}
+
+nb::tuple state_of(const RelatedPrim& related) {
+  return nb::make_tuple(kPickleVersion, static_cast<int>(related.role), packed(related.path),
+                        packed(related.file), related.line, related.column);
+}
+
+RelatedPrim related_of(const nb::tuple& state) {
+  check_state(state, 6);
+  RelatedPrim related;
+  related.role = enum_of(state[1], RelatedRole::Target);
+  related.path = unpacked(state[2]);
+  related.file = unpacked(state[3]);
+  related.line = nb::cast<std::uint32_t>(state[4]);
+  related.column = nb::cast<std::uint32_t>(state[5]);
+  return related;
+}
+
+nb::tuple state_of(const Diagnostic& finding) {
+  nb::list related;
+  for (const RelatedPrim& one : finding.related) {
+    related.append(state_of(one));
+  }
+  return nb::make_tuple(kPickleVersion, static_cast<int>(finding.severity), packed(finding.rule),
+                        packed(finding.message), packed(finding.file), finding.line, finding.column,
+                        packed(finding.prim), packed(finding.property), packed(finding.fix),
+                        finding.end_line, finding.end_column, related);
+}
+
+Diagnostic finding_of(const nb::tuple& state) {
+  check_state(state, 13);
+  Diagnostic finding;
+  finding.severity = enum_of(state[1], Severity::Error);
+  std::size_t at = 2;
+  for (std::string* text : {&finding.rule, &finding.message, &finding.file}) {
+    *text = unpacked(state[at++]);
+  }
+  finding.line = nb::cast<std::uint32_t>(state[at++]);
+  finding.column = nb::cast<std::uint32_t>(state[at++]);
+  for (std::string* text : {&finding.prim, &finding.property, &finding.fix}) {
+    *text = unpacked(state[at++]);
+  }
+  finding.end_line = nb::cast<std::uint32_t>(state[at++]);
+  finding.end_column = nb::cast<std::uint32_t>(state[at++]);
+  for (const nb::handle one : nb::cast<nb::list>(state[at])) {
+    finding.related.push_back(related_of(nb::cast<nb::tuple>(one)));
+  }
+  return finding;
+}
+
+template <class T, class Read>
+void bind_pickle(nb::class_<T>& bound, const Read& read) {
+  bound.def(
+      "__getstate__", [](const T& self) { return state_of(self); },
+      nb::sig("def __getstate__(self) -> tuple[Any, ...]"));
+  bound.def(
+      "__setstate__", [read](T& self, const nb::tuple& state) { new (&self) T(read(state)); },
+      nb::sig("def __setstate__(self, state: tuple[Any, ...]) -> None"));
+}
+
 void bind_related(nb::module_& module) {
   nb::class_<RelatedPrim> bound(module, "RelatedPrim",
                                 "What a finding is about beside its own prim.");
@@ -105,6 +232,7 @@ void bind_related(nb::module_& module) {
   bound.def_prop_ro(
       "file", [](const RelatedPrim& related) { return message(related.file); },
       "The layer that the path is one of, where it is not the stage; often empty.");
+  bind_pickle(bound, &related_of);
 }
 
 }  // namespace
@@ -140,6 +268,7 @@ void bind_diagnostics(nb::module_& module) {
   const auto shown = [](const Diagnostic& finding) { return message(finding.to_string()); };
   bound.def("__str__", shown);
   bound.def("__repr__", shown);
+  bind_pickle(bound, &finding_of);
 }
 
 }  // namespace tenon::python

@@ -12,6 +12,7 @@
 
 #include "failure.h"
 #include "guarded_write.h"
+#include "interruptions.h"
 #include "json.h"
 #include "options.h"
 #include <nanobind/stl/filesystem.h>
@@ -49,12 +50,22 @@ namespace {
 using namespace nb::literals;
 using answers::Json;
 using Files = std::vector<std::filesystem::path>;
+/// A verb that Ctrl-C ends before it writes.
+using Job = LeavableCall<Json>;
 
 /// An answer with what was found on the way, as "diagnostics".
 nb::object answered(const Json& json, const Diagnostics& found) {
   nb::object answer = to_python(json);
   answer["diagnostics"] = to_list(found);
   return answer;
+}
+
+/// What `verb(job)` answers; it owns all that it takes.
+template <class Verb>
+nb::object answer_of(Verb verb) {
+  const auto job = std::make_shared<Job>();
+  const Json json = or_raise(unlocked([&] { return (*job)(std::move(verb)); }), job->found);
+  return answered(json, job->found);
 }
 
 nb::object check(const Files& paths, const OpenArguments& arguments, const std::string& profile,
@@ -65,23 +76,28 @@ nb::object check(const Files& paths, const OpenArguments& arguments, const std::
   options.check.profile = profile;
   options.correct = fix;
   options.suggested = suggested;
-  if (fix) {
-    options.write = [](const std::string& /*asset*/, const std::vector<EditedFile>& files) {
-      return write_files(files);
-    };
-  }
   std::vector<std::string> names;
   for (const std::filesystem::path& path : paths) {
     names.push_back(path.string());
   }
-  return to_python(or_raise(unlocked([&]() -> Result<Json> {
-    if (suggested && !fix) {
-      return Error(ErrorCode::Invalid, "suggested says what fix corrects")
-          .with_rule("usage.conflict")
-          .with_fix("give fix=True, too");
-    }
-    TENON_TRY(const CheckedAssets checked, check_assets(names, options));
-    return checked_json(checked, fix ? "corrected" : "");
+  if (suggested && !fix) {
+    raise(Error(ErrorCode::Invalid, "suggested says what fix corrects")
+              .with_rule("usage.conflict")
+              .with_fix("give fix=True, too"));
+  }
+  const auto job = std::make_shared<Job>();
+  return to_python(or_raise(unlocked([&] {
+    return (*job)([names = std::move(names), options, fix](Job& work) mutable -> Result<Json> {
+      if (fix) {
+        options.write = [&work](const std::string& /*asset*/,
+                                const std::vector<EditedFile>& files) -> Result<void> {
+          TENON_CHECK(check_may_write(work));
+          return write_files(files);
+        };
+      }
+      TENON_TRY(const CheckedAssets checked, check_assets(names, options));
+      return checked_json(checked, fix ? "corrected" : "");
+    });
   })));
 }
 
@@ -120,33 +136,46 @@ nb::object compare(const std::filesystem::path& path, const OpenArguments& argum
   if (!bounds.empty()) {
     options.bounds = or_raise(gap_bounds(bounds));
   }
-  Diagnostics found;
-  const Json json = or_raise(unlocked([&]() -> Result<Json> {
-                               TENON_TRY(const ComparedEngines compared,
-                                         compare_engines(path.string(), options, found));
-                               return compared_engines_json(compared, true);
-                             }),
-                             found);
-  return answered(json, found);
+  return answer_of([path, options](Job& job) mutable -> Result<Json> {
+    options.listener.go_on = [&job](double /*seconds*/, double /*duration*/) {
+      return job.go_on();
+    };
+    TENON_TRY(const ComparedEngines compared, compare_engines(path.string(), options, job.found));
+    return compared_engines_json(compared, true);
+  });
 }
 
-/// How a robot's description is to be read, as tenon_usd hands it over.
+/// How a robot's description is to be read, as tenon_usd hands it over. `rules` are texts by the
+/// name of what they give: gains, armature, friction, collision.
 ConvertFileOptions convert_options(const OpenArguments& arguments, const std::string& name,
-                                   const std::string& gains, bool fix_base, bool float_base,
-                                   bool merge_fixed, bool scene, std::optional<bool> self_collision,
-                                   const std::map<std::string, std::string>& packages) {
+                                   const std::map<std::string, std::vector<std::string>>& rules,
+                                   std::optional<double> density, bool start_valid, bool fix_base,
+                                   bool float_base, bool merge_fixed, bool scene,
+                                   std::optional<bool> self_collision,
+                                   const std::map<std::string, std::string>& packages,
+                                   const std::string& model,
+                                   const std::map<std::string, std::string>& arg) {
   ConvertFileOptions options;
   options.open = arguments.open;
   options.name = name;
   options.packages = packages;
+  options.model = model;
+  options.arguments = arg;
   options.robot.fix_base = fix_base;
   options.robot.float_base = float_base;
   options.robot.merge_fixed = merge_fixed;
   options.robot.scene = scene;
   options.robot.self_collision = self_collision;
-  if (!gains.empty()) {
-    or_raise(read_gains(gains, options.open.files, options.robot));
+  options.robot.density = density;
+  if (start_valid) {
+    options.robot.start = convert::StartPose::Valid;
   }
+  const auto texts = [&rules](const char* what) {
+    const auto found = rules.find(what);
+    return found == rules.end() ? std::vector<std::string>() : found->second;
+  };
+  or_raise(read_rules({texts("gains"), texts("armature"), texts("friction"), texts("collision")},
+                      options.open.files, options.robot));
   return options;
 }
 
@@ -163,12 +192,12 @@ struct UpdateArguments {
 /// wanted. Errors: those of update_folder; Invalid "update.conflict" where conflicts are to fail.
 Result<std::optional<UpdatedAsset>> update_written(const structure::Package& made,
                                                    const std::string& folder,
-                                                   const UpdateArguments& how, Diagnostics& found) {
+                                                   const UpdateArguments& how, Job& job) {
   if (!how.update) {
     return std::optional<UpdatedAsset>();
   }
   TENON_TRY(auto updated,
-            update_folder(made, folder, {how.keep(), how.conflicts == "edits"}, found));
+            update_folder(made, folder, {how.keep(), how.conflicts == "edits"}, job.found));
   if (updated && how.conflicts == "fail" && !updated->conflicts.empty()) {
     return Error(ErrorCode::Invalid, "edits and the source changed the same thing, in " +
                                          std::to_string(updated->conflicts.size()) +
@@ -178,6 +207,7 @@ Result<std::optional<UpdatedAsset>> update_written(const structure::Package& mad
         .with_fix("give conflicts=\"edits\" or \"source\"");
   }
   if (updated) {
+    TENON_CHECK(check_may_write(job));
     TENON_CHECK(write_files(updated->files));
   }
   return updated;
@@ -189,10 +219,11 @@ Json with_update(Json answer, const std::optional<UpdatedAsset>& updated,
 }
 
 /// What was edited since it was written stays, unless it is forced.
-Result<void> write_noted(const NotedFiles& made, const std::string& output, bool force) {
+Result<void> write_noted(const NotedFiles& made, const std::string& output, bool force, Job& job) {
   if (!force) {
     TENON_CHECK(structure::check_not_edited(output, made.beside));
   }
+  TENON_CHECK(check_may_write(job));
   return write_made(made.files);
 }
 
@@ -206,17 +237,16 @@ Result<void> check_free(const std::string& output, bool folder, bool force) {
 /// A robot in one file, with the files next to it.
 Result<std::optional<UpdatedAsset>> write_robot_file(ConvertedFile converted,
                                                      const std::string& output, bool force,
-                                                     const UpdateArguments& how,
-                                                     Diagnostics& found) {
-  TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, found));
+                                                     const UpdateArguments& how, Job& job) {
+  TENON_TRY(const NotedFiles made, robot_files(std::move(converted), output, job.found));
   std::optional<UpdatedAsset> updated;
   if (how.update) {
     TENON_TRY(const structure::Package package, package_of(made, output));
     const std::string folder = std::filesystem::absolute(output).parent_path().string();
-    TENON_TRY(updated, update_written(package, folder, how, found));
+    TENON_TRY(updated, update_written(package, folder, how, job));
   }
   if (!updated) {
-    TENON_CHECK(write_noted(made, output, force));
+    TENON_CHECK(write_noted(made, output, force, job));
   }
   return updated;
 }
@@ -224,7 +254,7 @@ Result<std::optional<UpdatedAsset>> write_robot_file(ConvertedFile converted,
 /// A description as an asset: a folder of Asset Structure 3.0, or a file.
 Result<Json> import_robot(const std::string& input, const std::string& output,
                           const ConvertFileOptions& options, bool force, const UpdateArguments& how,
-                          Diagnostics& found) {
+                          Job& job) {
   GuardedRun guard;
   const bool folder = names_folder(output);
   if (how.update && !folder && output.ends_with(".usdz")) {
@@ -232,30 +262,32 @@ Result<Json> import_robot(const std::string& input, const std::string& output,
         .with_fix("convert into a folder, or give force=True to replace the package");
   }
   TENON_CHECK(how.update ? Result<void>() : check_free(output, folder, force));
-  TENON_TRY(ConvertedFile converted, convert_file(input, options, found));
+  TENON_TRY(ConvertedFile converted, convert_file(input, options, job.found));
   const RobotCounts counts = counts_of(converted);
   std::optional<UpdatedAsset> updated;
   if (folder) {
-    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, found));
-    TENON_TRY(updated, update_written(asset.package, output, how, found));
+    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, job.found));
+    TENON_TRY(updated, update_written(asset.package, output, how, job));
     if (!updated) {
+      TENON_CHECK(check_may_write(job));
       TENON_CHECK(write_with_base(asset.package, output, {.force = force}));
     }
   } else {
-    TENON_TRY(updated, write_robot_file(std::move(converted), output, force, how, found));
+    TENON_TRY(updated, write_robot_file(std::move(converted), output, force, how, job));
   }
   return with_update(converted_json(counts, output), updated, how);
 }
 
 /// An asset as a description: MJCF or URDF.
 Result<Json> export_robot(const std::string& input, const std::string& output,
-                          const OpenOptions& open, bool force, Diagnostics& found) {
+                          const OpenOptions& open, bool force, Job& job) {
   GuardedRun guard;
   TENON_CHECK(force ? Result<void>() : structure::check_not_edited(output));
   const DescriptionFormat format =
       output.ends_with(".urdf") ? DescriptionFormat::Urdf : DescriptionFormat::Mjcf;
-  TENON_TRY(const AssetDescription description, describe_asset(input, open, format, output, found));
-  TENON_CHECK(write_noted(description.made, output, force));
+  TENON_TRY(const AssetDescription description,
+            describe_asset(input, open, format, output, job.found));
+  TENON_CHECK(write_noted(description.made, output, force, job));
   return description_json(description, output);
 }
 
@@ -269,28 +301,27 @@ bool is_asset(const std::filesystem::path& path) {
 
 nb::object convert(const std::filesystem::path& input, const std::filesystem::path& output,
                    const OpenArguments& arguments, const std::string& name,
-                   const std::string& gains, bool fix_base, bool float_base, bool merge_fixed,
-                   bool scene, std::optional<bool> self_collision,
-                   const std::map<std::string, std::string>& packages, bool force, bool update,
+                   const std::map<std::string, std::vector<std::string>>& rules,
+                   std::optional<double> density, bool start_valid, bool fix_base, bool float_base,
+                   bool merge_fixed, bool scene, std::optional<bool> self_collision,
+                   const std::map<std::string, std::string>& packages, const std::string& model,
+                   const std::map<std::string, std::string>& arg, bool force, bool update,
                    const std::string& conflicts) {
-  const ConvertFileOptions options = convert_options(arguments, name, gains, fix_base, float_base,
-                                                     merge_fixed, scene, self_collision, packages);
-  Diagnostics found;
-  const Json json =
-      or_raise(unlocked([&]() -> Result<Json> {
-                 if (!is_asset(input)) {
-                   return import_robot(input.string(), output.string(), options, force,
-                                       {update, conflicts}, found);
-                 }
-                 if (update) {
-                   return Error(ErrorCode::Unsupported,
-                                "update is about assets, and this makes a description of one")
-                       .with_fix("leave update out");
-                 }
-                 return export_robot(input.string(), output.string(), options.open, force, found);
-               }),
-               found);
-  return answered(json, found);
+  const ConvertFileOptions options =
+      convert_options(arguments, name, rules, density, start_valid, fix_base, float_base,
+                      merge_fixed, scene, self_collision, packages, model, arg);
+  const UpdateArguments how{update, conflicts};
+  return answer_of([input, output, options, force, how](Job& job) -> Result<Json> {
+    if (!is_asset(input)) {
+      return import_robot(input.string(), output.string(), options, force, how, job);
+    }
+    if (how.update) {
+      return Error(ErrorCode::Unsupported,
+                   "update is about assets, and this makes a description of one")
+          .with_fix("leave update out");
+    }
+    return export_robot(input.string(), output.string(), options.open, force, job);
+  });
 }
 
 nb::object structure(const std::filesystem::path& path, const std::filesystem::path& folder,
@@ -300,27 +331,25 @@ nb::object structure(const std::filesystem::path& path, const std::filesystem::p
   structure::StructureOptions options;
   options.name = name;
   options.engines = engines;
-  Diagnostics found;
-  const Json json = or_raise(
-      unlocked([&]() -> Result<Json> {
-        GuardedRun guard;
-        const UpdateArguments how{update, conflicts};
-        if (!folder.empty() && !update) {
-          TENON_CHECK(structure::check_folder(folder.string(), {.force = force}));
-        }
-        TENON_TRY(const structure::StructuredAsset asset,
-                  structure_asset(path.string(), open_options_of(arguments), options, found));
-        if (folder.empty()) {
-          return structured_json(asset);
-        }
-        TENON_TRY(const auto updated, update_written(asset.package, folder.string(), how, found));
-        if (!updated) {
-          TENON_CHECK(write_with_base(asset.package, folder.string(), {.force = force}));
-        }
-        return with_update(structured_json(asset), updated, how);
-      }),
-      found);
-  return answered(json, found);
+  const UpdateArguments how{update, conflicts};
+  const OpenOptions open = open_options_of(arguments);
+  return answer_of([path, folder, options, open, force, how](Job& job) -> Result<Json> {
+    GuardedRun guard;
+    if (!folder.empty() && !how.update) {
+      TENON_CHECK(structure::check_folder(folder.string(), {.force = force}));
+    }
+    TENON_TRY(const structure::StructuredAsset asset,
+              structure_asset(path.string(), open, options, job.found));
+    if (folder.empty()) {
+      return structured_json(asset);
+    }
+    TENON_TRY(const auto updated, update_written(asset.package, folder.string(), how, job));
+    if (!updated) {
+      TENON_CHECK(check_may_write(job));
+      TENON_CHECK(write_with_base(asset.package, folder.string(), {.force = force}));
+    }
+    return with_update(structured_json(asset), updated, how);
+  });
 }
 
 void make_new(const std::filesystem::path& path, const std::string& up_axis, double meters_per_unit,
@@ -389,14 +418,17 @@ void bind_checks(nb::module_& module) {
 
 void bind_functions(nb::module_& module) {
   bind_checks(module);
-  module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "gains"_a,
-             "fix_base"_a, "float_base"_a, "merge_fixed"_a, "scene"_a, "self_collision"_a.none(),
-             "packages"_a, "force"_a, "update"_a, "conflicts"_a,
+  module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "rules"_a,
+             "density"_a.none(), "start_valid"_a, "fix_base"_a, "float_base"_a, "merge_fixed"_a,
+             "scene"_a, "self_collision"_a.none(), "packages"_a, "model"_a, "arg"_a, "force"_a,
+             "update"_a, "conflicts"_a,
              nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
-                     "arguments: OpenArguments, name: str, gains: str, fix_base: bool, "
+                     "arguments: OpenArguments, name: str, rules: Mapping[str, Sequence[str]], "
+                     "density: float | None, start_valid: bool, fix_base: bool, "
                      "float_base: bool, merge_fixed: bool, scene: bool, "
                      "self_collision: bool | None, "
-                     "packages: Mapping[str, str], force: bool, update: bool, "
+                     "packages: Mapping[str, str], model: str, arg: Mapping[str, str], "
+                     "force: bool, update: bool, "
                      "conflicts: str) -> dict[str, Any]"));
   module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,
              "engines"_a, "update"_a, "conflicts"_a,
@@ -412,6 +444,8 @@ void bind_functions(nb::module_& module) {
   module.def("write_files", &write_files_beside, "path"_a, "contents"_a, "beside"_a,
              nb::sig("def write_files(path: str | os.PathLike[str], contents: bytes, "
                      "beside: dict[str, bytes]) -> None"));
+  module.def("wait_for_left_calls", &wait_for_left_calls, "Waits for calls that Ctrl-C has left.");
+  module.def("end_looks", &end_looks, "Long calls look for signals no more.");
   module.def("engines", &engines, nb::sig("def engines() -> list[dict[str, Any]]"));
   module.def(
       "doctor", [] { return to_python(unlocked([] { return parts_json(optional_parts()); })); },

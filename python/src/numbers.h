@@ -99,16 +99,21 @@ struct NewArray {
     numbers.resize(count);
   }
   /// Hands the memory over to Python.
-  nb::object take() {
-    auto* kept = new std::vector<Number>(std::move(numbers));
-    const nb::capsule owner(
-        kept, [](void* held) noexcept { delete static_cast<std::vector<Number>*>(held); });
-    return nb::cast(
-        nb::ndarray<nb::numpy, Number>(kept->data(), shape.size(), shape.data(), owner));
-  }
+  nb::object take() { return take_as<Number>(); }
+  /// The same as an array that cannot be written to.
+  nb::object take_locked() { return take_as<const Number>(); }
 
   std::vector<std::size_t> shape;
   std::vector<Number> numbers;
+
+ private:
+  template <class Seen>
+  nb::object take_as() {
+    auto* kept = new std::vector<Number>(std::move(numbers));
+    const nb::capsule owner(
+        kept, [](void* held) noexcept { delete static_cast<std::vector<Number>*>(held); });
+    return nb::cast(nb::ndarray<nb::numpy, Seen>(kept->data(), shape.size(), shape.data(), owner));
+  }
 };
 
 }  // namespace tenon::python

@@ -17,12 +17,21 @@
 
 namespace tenon::python {
 
-OpenedStage::Access::Access(OpenedStage& owner) : lock_(owner.mutex_, std::try_to_lock) {
+OpenedStage::Access::Access(OpenedStage& owner, WithoutWaiting /*tag*/)
+    : lock_(owner.mutex_, std::try_to_lock) {
   if (!lock_) {
     const nb::gil_scoped_release release;
     lock_.lock();
   }
   stage_ = owner.stage_;
+}
+
+OpenedStage::Access::Access(OpenedStage& owner) : Access(owner, WithoutWaiting()) {
+  if (!owner.waiting_.empty()) {
+    Diagnostics found;
+    or_raise(unlocked([&] { return owner.make_waiting(found); }), found);
+    stage_ = owner.stage_;
+  }
 }
 
 std::shared_ptr<OpenedStage> OpenedStage::open(std::string path, OpenOptions options,
@@ -46,6 +55,7 @@ Result<AssetEditor*> OpenedStage::editor() {
     options.open = options_;
     TENON_TRY(AssetEditor made, AssetEditor::open(path_, options, again));
     editor_ = std::move(made);
+    TENON_CHECK(look_again());
   }
   return &*editor_;
 }
@@ -58,26 +68,107 @@ Result<void> OpenedStage::look_again() {
   return {};
 }
 
+/// Adds to places_ and steps_. The editor keeps no step of edits that change nothing; the scene is
+/// another one exactly where it keeps one.
+Result<void> OpenedStage::edit_now(const std::vector<AssetEdit>& edits, Diagnostics& diagnostics) {
+  TENON_TRY(AssetEditor * asset, editor());
+  const std::shared_ptr<const stage::Stage> before = stage_;
+  auto places = asset->edit(edits, diagnostics);
+  TENON_CHECK(look_again());  // also where the edits were taken back
+  if (!places) {
+    return places.error();
+  }
+  steps_ += stage_ == before ? 0 : 1;
+  places_.insert(places_.end(), places->begin(), places->end());
+  return {};
+}
+
+/// A step of ours is as many of the editor.
+void OpenedStage::close_step(std::size_t steps) {
+  if (steps > 0) {
+    done_.push_back(steps);
+    undone_.clear();
+  }
+  steps_ = 0;
+}
+
 Result<std::vector<EditedPlace>> OpenedStage::edit(const std::vector<AssetEdit>& edits,
                                                    Diagnostics& diagnostics) {
-  TENON_TRY(AssetEditor * asset, editor());
-  TENON_TRY(auto places, asset->edit(edits, diagnostics));
-  TENON_CHECK(look_again());
-  return places;
+  if (open_blocks_ > 0) {
+    waiting_.insert(waiting_.end(), edits.begin(), edits.end());
+    return std::vector<EditedPlace>();
+  }
+  places_.clear();
+  TENON_CHECK(edit_now(edits, diagnostics));
+  close_step(steps_);
+  return std::exchange(places_, {});
+}
+
+Result<void> OpenedStage::make_waiting(Diagnostics& diagnostics) {
+  const std::vector<AssetEdit> waiting = std::exchange(waiting_, {});
+  return waiting.empty() ? Result<void>() : edit_now(waiting, diagnostics);
+}
+
+void OpenedStage::begin_edits() {
+  if (open_blocks_++ == 0) {
+    places_.clear();
+    steps_ = 0;
+    dropped_ = false;
+    to_look_at_.clear();
+  }
+}
+
+Result<std::vector<EditedPlace>> OpenedStage::end_edits(Diagnostics& diagnostics) {
+  if (open_blocks_ > 1) {
+    --open_blocks_;
+    return std::vector<EditedPlace>();
+  }
+  Result<void> made = dropped_
+                          ? Error(ErrorCode::Invalid, "a block of edits inside of this one failed")
+                          : make_waiting(diagnostics);
+  if (!made) {
+    TENON_CHECK(drop_edits());
+    return made.error();
+  }
+  open_blocks_ = 0;
+  close_step(steps_);
+  return std::exchange(places_, {});
+}
+
+Result<void> OpenedStage::drop_edits() {
+  open_blocks_ -= open_blocks_ > 0 ? 1 : 0;
+  waiting_.clear();
+  places_.clear();
+  dropped_ = open_blocks_ > 0;
+  bool gone = false;
+  for (; steps_ > 0; --steps_) {
+    gone = editor_ && editor_->undo();
+  }
+  return gone ? look_again() : Result<void>();
 }
 
 Result<bool> OpenedStage::undo() {
-  if (!editor_ || !editor_->undo()) {
+  if (!editor_ || done_.empty()) {
     return false;
   }
+  for (std::size_t i = 0; i < done_.back(); ++i) {
+    editor_->undo();
+  }
+  undone_.push_back(done_.back());
+  done_.pop_back();
   TENON_CHECK(look_again());
   return true;
 }
 
 Result<bool> OpenedStage::redo() {
-  if (!editor_ || !editor_->redo()) {
+  if (!editor_ || undone_.empty()) {
     return false;
   }
+  for (std::size_t i = 0; i < undone_.back(); ++i) {
+    editor_->redo();
+  }
+  done_.push_back(undone_.back());
+  undone_.pop_back();
   TENON_CHECK(look_again());
   return true;
 }
@@ -103,6 +194,8 @@ Result<std::vector<EditedFile>> OpenedStage::save() {
     TENON_CHECK(write_files(files));
   }
   editor_.reset();
+  done_.clear();
+  undone_.clear();
   return files;
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nanobind/nanobind.h>
@@ -31,6 +32,9 @@ class OpenedStage {
   class Access {
    public:
     explicit Access(OpenedStage& owner);
+    /// Of the edits that still wait, none is in the scene.
+    struct WithoutWaiting {};
+    Access(OpenedStage& owner, WithoutWaiting tag);
     const stage::Stage& operator*() const { return *stage_; }
     const stage::Stage* operator->() const { return stage_.get(); }
 
@@ -38,13 +42,34 @@ class OpenedStage {
     std::unique_lock<std::recursive_mutex> lock_;
     std::shared_ptr<const stage::Stage> stage_;
   };
+  /// Makes the edits that wait first. Raises what they fail with; the caller has the interpreter.
   Access access() { return Access(*this); }
+  Access access_without_waiting() { return Access(*this, Access::WithoutWaiting()); }
 
   // Under an Access, with or without the interpreter.
 
-  /// Edits in memory, all or none. Errors: those of AssetEditor.
+  /// Edits in memory, all or none; between begin_edits() and end_edits() they wait until somebody
+  /// looks at the scene, and no place is known yet. Errors: those of AssetEditor.
   Result<std::vector<EditedPlace>> edit(const std::vector<AssetEdit>& edits,
                                         Diagnostics& diagnostics);
+  /// From here on edits are one step of the history, all or none. Blocks may be inside of others,
+  /// and are parts of them then.
+  void begin_edits();
+  /// Where the edits of the outermost block went; none for others. Errors: those of edit(); none of
+  /// the block's edits stays then.
+  Result<std::vector<EditedPlace>> end_edits(Diagnostics& diagnostics);
+  /// The same where the block failed: nothing of all blocks around it stays.
+  Result<void> drop_edits();
+  bool in_edits() const { return open_blocks_ > 0; }
+  /// What has been asked for since begin_edits() and not been made yet.
+  const std::vector<AssetEdit>& waiting() const { return waiting_; }
+  Result<void> make_waiting(Diagnostics& diagnostics);
+  /// Relationships whose targets somebody looks at when the blocks are over.
+  void look_later(Path relationship) { to_look_at_.push_back(relationship); }
+  std::vector<Path> to_look_at() { return std::exchange(to_look_at_, {}); }
+  /// Says something about an edit in diagnostics(), after what opening said.
+  void tell(const Diagnostic& finding) { diagnostics_.add(finding); }
+
   /// False where there is nothing to take back, or to do again.
   Result<bool> undo();
   Result<bool> redo();
@@ -63,6 +88,8 @@ class OpenedStage {
  private:
   Result<AssetEditor*> editor();
   Result<void> look_again();
+  Result<void> edit_now(const std::vector<AssetEdit>& edits, Diagnostics& diagnostics);
+  void close_step(std::size_t steps);
 
   std::string path_;
   OpenOptions options_;
@@ -71,6 +98,13 @@ class OpenedStage {
   std::recursive_mutex mutex_;
   std::shared_ptr<const stage::Stage> stage_;
   std::optional<AssetEditor> editor_;
+  std::size_t open_blocks_ = 0;
+  bool dropped_ = false;                    // a block inside of the open ones failed
+  std::vector<AssetEdit> waiting_;          // of the open blocks
+  std::vector<Path> to_look_at_;            // the same
+  std::vector<EditedPlace> places_;         // of the edits that were made last, or of the blocks
+  std::size_t steps_ = 0;                   // of the editor's history, the same
+  std::vector<std::size_t> done_, undone_;  // steps of the editor for each of ours
 };
 
 void bind_stage(nanobind::module_& module);

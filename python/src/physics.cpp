@@ -78,9 +78,12 @@ void tell(const FieldInfo& info, const std::string& shape, FieldRow& row) {
 
 // ---- lists
 
-/// A list of objects of the scene.
+/// A list of objects of the scene, or those of it that a slice names.
 struct List {
   const void* first = nullptr;
+  std::size_t whole = 0;  ///< how many lie behind `first`
+  std::size_t start = 0;  ///< of the slice, into these, and its step
+  Py_ssize_t step = 1;
   std::size_t count = 0;
   nb::object (*item)(const void* first, std::size_t at, nb::handle owner) = nullptr;
   const std::vector<FieldRow>* rows = nullptr;  ///< null: its items are no objects
@@ -92,7 +95,7 @@ template <class T>
 nb::object list_of(const std::vector<T>& items, nb::handle owner) {
   List list;
   list.first = items.data();
-  list.count = items.size();
+  list.whole = list.count = items.size();
   list.stride = sizeof(T);
   list.item = [](const void* first, std::size_t at, nb::handle kept) {
     return view(static_cast<const T*>(first)[at], kept);
@@ -104,20 +107,59 @@ nb::object list_of(const std::vector<T>& items, nb::handle owner) {
   return nb::cast(std::move(list));
 }
 
+/// Where an object of the list lies behind `first`.
+std::size_t place_in(const List& list, std::size_t at) {
+  return static_cast<std::size_t>(static_cast<Py_ssize_t>(list.start) +
+                                  list.step * static_cast<Py_ssize_t>(at));
+}
+
 nb::object item_of(const List& list, Py_ssize_t at) {
   const auto count = static_cast<Py_ssize_t>(list.count);
   if (at < -count || at >= count) {
-    throw nb::index_error();
+    throw nb::index_error(
+        ("there is no object " + std::to_string(at) + "; there are " + std::to_string(count))
+            .c_str());
   }
-  return list.item(list.first, static_cast<std::size_t>(at < 0 ? at + count : at), list.owner);
+  const auto counted = static_cast<std::size_t>(at < 0 ? at + count : at);
+  return list.item(list.first, place_in(list, counted), list.owner);
+}
+
+/// What is found in Python: names, and texts for people.
+nb::object ask_python(const char* function, nb::handle self) {
+  return nb::module_::import_("tenon_usd._lists").attr(function)(self);
+}
+
+nb::object item_named(nb::handle_t<List> self, const nb::str& name) {
+  const nb::object at = nb::module_::import_("tenon_usd._lists").attr("index")(self, name);
+  return item_of(*nb::inst_ptr<List>(self), nb::cast<Py_ssize_t>(at));
+}
+
+nb::object slice_of(const List& list, const nb::slice& slice) {
+  const auto [start, stop, step, length] = slice.compute(list.count);
+  List part = list;
+  part.start = length == 0 ? 0 : place_in(list, static_cast<std::size_t>(start));
+  part.step = list.step * step;
+  part.count = length;
+  return nb::cast(std::move(part));
 }
 
 nb::list items_of(const List& list) {
   nb::list items;
   for (std::size_t i = 0; i < list.count; ++i) {
-    items.append(list.item(list.first, i, list.owner));
+    items.append(list.item(list.first, place_in(list, i), list.owner));
   }
   return items;
+}
+
+/// Of a column of all objects the part of the slice.
+nb::object part_of(const List& list, const nb::object& column) {
+  if (list.start == 0 && list.step == 1 && list.count == list.whole) {
+    return column;
+  }
+  const auto begin = static_cast<Py_ssize_t>(list.start);
+  const Py_ssize_t end = begin + list.step * static_cast<Py_ssize_t>(list.count);
+  const nb::object stop = end < 0 ? nb::none() : nb::cast(end);
+  return column[nb::module_::import_("builtins").attr("slice")(begin, stop, list.step)];
 }
 
 nb::object column_of(const List& list, const std::string& name) {
@@ -127,11 +169,12 @@ nb::object column_of(const List& list, const std::string& name) {
         continue;
       }
       if (row.column != nullptr) {
-        return row.column(list.first, list.count, list.owner);
+        return part_of(list, row.column(list.first, list.whole, list.owner));
       }
       nb::list values;
       for (std::size_t i = 0; i < list.count; ++i) {
-        values.append(row.get(static_cast<const char*>(list.first) + i * list.stride, list.owner));
+        values.append(row.get(
+            static_cast<const char*>(list.first) + place_in(list, i) * list.stride, list.owner));
       }
       return values;
     }
@@ -144,7 +187,7 @@ nb::object column_of(const List& list, const std::string& name) {
 nb::object quaternion(const Quatd& q) {
   NewArray<> made({4});
   made.numbers = {q.w, q.x, q.y, q.z};
-  return made.take();
+  return made.take_locked();  // of a property: what is written there would be lost
 }
 
 template <class T>
@@ -327,6 +370,9 @@ nb::class_<Bound> bind_class(nb::module_& module) {
     add_property(bound, row);
   }
   const nb::dict columns = columns_of(rows_of<T>());
+  bound.def(
+      "__repr__", [](nb::handle self) { return ask_python("describe", self); },
+      nb::sig("def __repr__(self) -> str"));
   bound.attr("FIELDS") = nb::tuple(columns);
   bound.attr("COLUMNS") = columns;
   return bound;
@@ -389,6 +435,31 @@ void bind_pose(nb::module_& module) {
     row.number = number_name<Vec3d>();
   }
   pose.attr("COLUMNS") = columns_of(rows);
+  pose.def(
+      "__repr__", [](nb::handle self) { return ask_python("describe", self); },
+      nb::sig("def __repr__(self) -> str"));
+}
+
+/// By path or name.
+void bind_list_names(nb::class_<List>& list) {
+  list.def(
+      "index",
+      [](nb::handle_t<List> self, const nb::str& name) {
+        return nb::cast<std::size_t>(
+            nb::module_::import_("tenon_usd._lists").attr("index")(self, name));
+      },
+      "name"_a,
+      "The number of the object of a path, or of a name that no other one has: the index that "
+      "other "
+      "objects have of it. Raises KeyError.");
+  list.def(
+      "__contains__",
+      [](nb::handle_t<List> self, const nb::object& name) {
+        return nb::cast<bool>(
+            nb::module_::import_("tenon_usd._lists").attr("contains")(self, name));
+      },
+      "name"_a, nb::sig("def __contains__(self, name: object) -> bool"),
+      "Whether there is an object of this path.");
 }
 
 void bind_list(nb::module_& module) {
@@ -396,6 +467,12 @@ void bind_list(nb::module_& module) {
                         "A list of objects of a scene, without a copy.");
   list.def("__len__", [](const List& self) { return self.count; });
   list.def("__getitem__", &item_of, "at"_a, nb::sig("def __getitem__(self, at: int, /) -> T"));
+  list.def("__getitem__", &item_named, "at"_a, nb::sig("def __getitem__(self, at: str, /) -> T"),
+           "The object of a path, or of a name that no other one has. Raises KeyError.");
+  list.def("__getitem__", &slice_of, "at"_a,
+           nb::sig("def __getitem__(self, at: slice, /) -> List[T]"),
+           "A part of the list, without a copy.");
+  bind_list_names(list);
   list.def(
       "__iter__", [](const List& self) { return nb::iter(items_of(self)); },
       nb::sig("def __iter__(self) -> Iterator[T]"));
@@ -423,8 +500,12 @@ void bind_list(nb::module_& module) {
   table("to_pandas",
         "A pandas.DataFrame with a row for each object, vectors as columns \"position.x\"; its "
         "attrs[\"units\"] has the unit of each. Raises MissingError without pandas.");
-  list.def("__repr__",
-           [](const List& self) { return "<List of " + std::to_string(self.count) + ">"; });
+  list.def(
+      "__repr__", [](nb::handle self) { return ask_python("describe_list", self); },
+      nb::sig("def __repr__(self) -> str"));
+  list.def(
+      "_repr_html_", [](nb::handle self) { return ask_python("html_of_list", self); },
+      nb::sig("def _repr_html_(self) -> str"), "A table for notebooks.");
 }
 
 bool may_collide(const ReadScene& read, std::size_t a, std::size_t b) {
@@ -453,6 +534,9 @@ void bind_physics(nb::module_& module) {
   bound.def_prop_ro(
       "diagnostics", [](const ReadScene& self) { return to_list(self.diagnostics); },
       nb::sig("def diagnostics(self) -> list[Diagnostic]"), "What reading the physics found.");
+  bound.def(
+      "_repr_html_", [](nb::handle self) { return ask_python("html_of_scene", self); },
+      nb::sig("def _repr_html_(self) -> str"), "A table for notebooks.");
   bound.def("may_collide", &may_collide, "collider0"_a, "collider1"_a,
             "Contacts between two colliders, given by index, are possible.");
   bound.def(

@@ -27,6 +27,7 @@ from ._tenon import AssetPath, Diagnostic, Prim, RelatedPrim, Stage
 from .errors import (
     CorruptError,
     Error,
+    ExportWarning,
     FileError,
     InvalidError,
     LimitError,
@@ -65,6 +66,7 @@ __all__ = [
     "Diagnostic",
     "Dynamics",
     "Error",
+    "ExportWarning",
     "FileError",
     "InvalidError",
     "LimitError",

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import errno
+import os
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,6 +18,7 @@ class Error(Exception):
     """Why something could not be done, with its place and what to do about it.
 
     `diagnostics` is a list of findings: first the reason, then what else was found on the way.
+    Pickles and copies keep them, so that another process may raise it.
     """
 
     diagnostics: list[Diagnostic]
@@ -23,6 +26,19 @@ class Error(Exception):
     def __init__(self, message: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
         super().__init__(message)
         self.diagnostics = list(diagnostics)
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        rest = {name: value for name, value in vars(self).items() if name != "diagnostics"}
+        return type(self), (str(self), self.diagnostics), rest
+
+    def _repr_html_(self) -> str:
+        """A table of the findings for notebooks."""
+        from ._lists import html_of_findings
+
+        return html_of_findings(self.diagnostics, type(self).__name__)
 
     def _first(self, name: str) -> str:
         return str(getattr(self.diagnostics[0], name)) if self.diagnostics else ""
@@ -53,8 +69,23 @@ class Error(Exception):
         return self._first("fix")
 
 
+#: What Python calls the reasons of files that rules name.
+_ERRNO = {"file.not-found": errno.ENOENT, "file.exists": errno.EEXIST}
+
+
 class FileError(Error, OSError):
-    """A file cannot be read or written."""
+    """A file cannot be read or written: `filename` is its name, `errno` the system's number where
+    it is known, else None."""
+
+    def __init__(self, message: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        super().__init__(message, diagnostics)
+        _tell_file(self)
+
+
+def _tell_file(error: Any) -> None:
+    error.filename = error.file or None
+    error.errno = _ERRNO.get(error.rule)
+    error.strerror = os.strerror(error.errno) if error.errno else None
 
 
 class ParseError(Error, ValueError):
@@ -82,7 +113,15 @@ class NotFoundError(Error, LookupError):
 
 
 class MissingFileError(NotFoundError, FileNotFoundError):
-    """A file that does not exist."""
+    """A file that does not exist: `filename` is its name, `errno` is errno.ENOENT."""
+
+    def __init__(self, message: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        super().__init__(message, diagnostics)
+        _tell_file(self)
+
+
+class ExportWarning(UserWarning):
+    """What is written moves otherwise than the asset: World.diagnostics has all reasons."""
 
 
 class UnstableError(Error, ArithmeticError):

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _tenon
-from .options import OpenOptions, PathLike, arguments_of
+from .options import OpenOptions, PathLike, arguments_of, path_of
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -21,7 +21,7 @@ def open(path: PathLike, **options: Unpack[OpenOptions]) -> _tenon.Stage:
     the variant sets "Physics". What is wrong but leaves a scene is in Stage.diagnostics. Raises
     FileError, ParseError, CorruptError and other errors of tenon_usd.errors.
     """
-    return _tenon.open_stage(path, arguments_of(options))
+    return _tenon.open_stage(path_of(path), arguments_of(options))
 
 
 def physics(path: PathLike, **options: Unpack[OpenOptions]) -> _tenon.PhysicsScene:
@@ -62,12 +62,14 @@ def check(
 ) -> dict[str, Any]:
     """Checks assets, or all assets below folders, against the rules (docs/rules).
 
-    `profile` "isaac-3.0" holds the files to Asset Structure 3.0 as well. `fix` writes what has a
-    safe correction, with `suggested` also the names and types that messages suggest. Returns
+    `profile` "isaac-3.0" holds the files to Asset Structure 3.0 as well, "simready" to NVIDIA's
+    requirements (docs/simready.md). `fix` writes what has a safe correction, with `suggested` also
+    the names and types that messages suggest. Returns
     {"diagnostics": findings with file, line, prim and fix, "summary": counts of errors, warnings,
     infos, "assets"}.
     """
-    return _tenon.check(paths, arguments_of(options), profile, fix, suggested)
+    names = [path_of(path) for path in paths]
+    return _tenon.check(names, arguments_of(options), profile, fix, suggested)
 
 
 def rules() -> list[dict[str, Any]]:
@@ -100,7 +102,7 @@ def diff(
     """
     if mode not in ("files", "composed", "physics"):
         raise ValueError(f"mode is {mode!r}; expected files, composed or physics")
-    return _tenon.diff(before, after, arguments_of(options), mode, tolerance)
+    return _tenon.diff(path_of(before), path_of(after), arguments_of(options), mode, tolerance)
 
 
 def compare(
@@ -122,7 +124,7 @@ def compare(
     as "5mm" fills "exceeded". Returns {"engines", "pairs": gaps and reasons, "exceeded"}.
     """
     return _tenon.compare(
-        path,
+        path_of(path),
         arguments_of(options),
         list(engines),
         duration,
@@ -139,30 +141,59 @@ def _check_conflicts(conflicts: str | None) -> None:
         raise ValueError(f"conflicts is {conflicts!r}; expected edits, source or fail")
 
 
+def _rules(given: Any, text: Callable[[Any], str]) -> list[str]:
+    """A value, a mapping of them or a text as the command takes them: VALUE or REGEX=VALUE."""
+    if given is None:
+        return []
+    if isinstance(given, str):
+        return [given]
+    if not isinstance(given, Mapping):
+        return [text(given)]
+    return [
+        text(value) if pattern == "*" else f"{pattern}={text(value)}"
+        for pattern, value in given.items()
+    ]
+
+
 def convert(
     input: PathLike,
     output: PathLike,
     *,
     name: str = "",
-    gains: str | tuple[float, float] = "",
+    gains: str | tuple[float, float] | Mapping[str, tuple[float, float]] = "",
+    armature: float | Mapping[str, float] | None = None,
+    friction: float | Mapping[str, float] | None = None,
+    collision: str | Mapping[str, str] | None = None,
+    density: float | None = None,
+    start: str = "zero",
     fix_base: bool = False,
     float_base: bool = False,
     merge_fixed: bool = False,
     scene: bool = False,
     self_collision: bool | None = None,
     packages: Mapping[str, PathLike] | None = None,
+    model: str = "",
+    arg: Mapping[str, str] | None = None,
     force: bool = False,
     update: bool = False,
     conflicts: str | None = None,
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
-    """A robot's description (URDF, MJCF) as an asset, or an asset as a description.
+    """A robot's description (URDF, SDF, MJCF) as an asset, or an asset as a description.
 
     `output` is a file, or a folder for Asset Structure 3.0; of an asset an .xml or .urdf file.
     `gains` are K, D of a drive for each joint [N m/rad, N m s/rad or N/m, N s/m], or a JSON file.
+    `armature` [kg m^2 or kg] and `friction` [N m or N] are those of joints with one axis,
+    `collision` is what meshes of links collide as: "hull", "decomposition", "sphere" or "none" (the
+    mesh itself). Each of the four may be a mapping, from a regular expression for the whole name of
+    joints (of `collision`: links) to the value; the last that matches counts, and "*" is for the
+    others. One that matches nothing is a NotFoundError. `density` [kg/m^3] is that of links that
+    move and have colliders and no mass. With `start` "valid" joints whose limits exclude 0 start
+    inside of them; "zero" is the pose that the description has.
     `self_collision` says whether links of the robot touch each other; None is no for URDF and what
-    the model says for MJCF. `packages` are folders of ROS packages by name. Files that were edited
-    since they were written stay, unless `force`.
+    the model says for SDF and MJCF. `packages` are folders of ROS packages and models of Gazebo by
+    name, `model` is the one of an SDF file with several, `arg` are arguments of a file with macros
+    of xacro. Files that were edited since they were written stay, unless `force`.
     Returns {"output", "links", "joints", "diagnostics"}.
 
     `update` takes over what the source changed since and keeps what was edited in `output`, and
@@ -172,21 +203,33 @@ def convert(
     "fail", which writes nothing and raises InvalidError of the rule "update.conflict".
     """
     _check_conflicts(conflicts)
-    if not isinstance(gains, str):
-        gains = f"{float(gains[0])!r},{float(gains[1])!r}"
+    if start not in ("zero", "valid"):
+        raise ValueError(f"start is {start!r}; expected zero or valid")
+    if density is not None and not 0 < density <= 1e6:
+        raise ValueError(f"density is {density!r}; expected above 0, up to 1e6 kg/m^3")
+    rules = {
+        "gains": _rules(gains or None, lambda pair: f"{float(pair[0])!r},{float(pair[1])!r}"),
+        "armature": _rules(armature, lambda value: repr(float(value))),
+        "friction": _rules(friction, lambda value: repr(float(value))),
+        "collision": _rules(collision, str),
+    }
     folders = {key: str(folder) for key, folder in (packages or {}).items()}
     return _tenon.convert(
-        input,
-        output,
+        path_of(input),
+        path_of(output),
         arguments_of(options),
         name,
-        gains,
+        rules,
+        density,
+        start == "valid",
         fix_base,
         float_base,
         merge_fixed,
         scene,
         self_collision,
         folders,
+        model,
+        {key: str(value) for key, value in (arg or {}).items()},
         force,
         update,
         conflicts or "",
@@ -214,8 +257,8 @@ def structure(
     if update and folder is None:
         raise ValueError("update is about an asset in a folder; give the folder")
     return _tenon.structure(
-        path,
-        "" if folder is None else folder,
+        path_of(path),
+        "" if folder is None else path_of(folder),
         arguments_of(options),
         name,
         force,
@@ -237,7 +280,7 @@ def new(
 
     Raises FileError where there is a file of that name.
     """
-    _tenon.new_asset(path, up_axis, meters_per_unit, kilograms_per_unit, default_prim)
+    _tenon.new_asset(path_of(path), up_axis, meters_per_unit, kilograms_per_unit, default_prim)
     return open(path)
 
 

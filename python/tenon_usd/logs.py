@@ -19,7 +19,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -28,16 +28,13 @@ from .log import (
     BODY,
     CONTACT_NUMBERS,
     CONTACT_VECTORS,
-    SI_UNITS,
     SIM_UNITS,
     Array,
     Log,
     LogError,
     make_log,
 )
-
-if TYPE_CHECKING:
-    from .world import World
+from .recording import record
 
 __all__ = ["Log", "LogError", "main", "read", "record", "write"]
 
@@ -276,66 +273,6 @@ def read(path: str | os.PathLike[str]) -> Log:
         return READERS[ending](path)
     except (LogError, ValueError, KeyError, IndexError) as error:
         raise LogError(f"{path}: {error}") from error
-
-
-def record(world: World, duration: float, every: float = 1 / 60, env: int = 0,
-           contacts: bool = False) -> Log:
-    """Steps a World for `duration` [s] and logs environment `env` every so many seconds, from the
-    state that it is in. `contacts` needs a World with outputs=["contacts"]. SI and radians."""
-    step = world.time_step
-    total, stride = round(duration / step), max(1, round(every / step))
-    bodies, joints = world.body_names, world.joint_names
-    times: list[float] = []
-    poses, velocities, states, rates, energies = [], [], [], [], []
-    touched: dict[str, list[Any]] = {}
-    done = 0
-    while True:
-        pose, velocity = world._batch.body_states()
-        position, rate = world.joints()
-        times.append(float(world.time[env]))
-        poses.append(pose[env])
-        velocities.append(velocity[env])
-        states.append(position[env])
-        rates.append(rate[env])
-        energies.append(world.energy[env])
-        if contacts:
-            _touch(world, env, times[-1], touched)
-        if done >= total:
-            break
-        count = min(stride, total - done)
-        world.step(count)
-        done += count
-    columns: dict[str, Any] = {}
-    pose, velocity = np.array(poses), np.array(velocities)
-    for i, path in enumerate(bodies):
-        parts = {"position": pose[:, i, :3], "orientation": pose[:, i, 3:],
-                 "linearVelocity": velocity[:, i, :3], "angularVelocity": velocity[:, i, 3:]}
-        for what, axes in BODY.items():
-            columns.update({f"{path}.{what}{axis}": parts[what][:, k]
-                            for k, axis in enumerate(axes)})
-    for i, path in enumerate(joints):
-        columns[f"{path}.position"] = np.array(states)[:, i]
-        columns[f"{path}.velocity"] = np.array(rates)[:, i]
-    for i, name in enumerate(("energy.kinetic", "energy.potential")):
-        columns[name] = np.array(energies)[:, i]
-    found = {name: np.array(values) for name, values in touched.items()} if contacts else None
-    return make_log(times, columns, found, SI_UNITS)
-
-
-def _touch(world: World, env: int, time: float, touched: dict[str, list[Any]]) -> None:
-    found = world.contacts(env)
-    colliders = [collider.path for collider in world.scene.colliders]
-    row: dict[str, Any] = {"time": [time] * len(found["depth"])}
-    for side in range(2):
-        row[f"collider{side}"] = [colliders[i] for i in found[f"collider{side}"]]
-        row[f"body{side}"] = [world.body_names[i] if i >= 0 else "" for i in found[f"body{side}"]]
-    friction = found["force"] - found["normal_force"][:, None] * found["normal"]
-    for key, values in (("point", found["point"]), ("normal", found["normal"]),
-                        ("frictionForce", friction), ("frictionTorque", found["friction_torque"])):
-        row.update({key + axis: values[:, k].tolist() for k, axis in enumerate(AXES)})
-    row.update(depth=found["depth"].tolist(), normalForce=found["normal_force"].tolist())
-    for name, values in row.items():
-        touched.setdefault(name, []).extend(values)
 
 
 # ---- writing

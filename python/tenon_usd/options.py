@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
@@ -55,7 +56,7 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
         elif name == "session":
             arguments.session = os.fspath(value)
         elif name in ("search_paths", "sandbox", "allow_read"):
-            setattr(arguments, name, [os.fspath(path) for path in value])
+            setattr(arguments, name, [os.fspath(path) for path in _list_of(name, value)])
         elif name == "variant_fallbacks":
             arguments.variant_fallbacks = {k: list(v) for k, v in value.items()}
         elif name == "contents":
@@ -67,11 +68,25 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
         elif name == "payloads":
             arguments.payloads = bool(value)
         elif name in OpenOptions.__annotations__:
-            setattr(arguments, name, list(value))
+            setattr(arguments, name, _list_of(name, value))
         else:
-            raise TypeError(f"unexpected argument {name!r}; expected one of "
+            close = difflib.get_close_matches(name, OpenOptions.__annotations__, 1)
+            raise TypeError(f"got an unexpected keyword argument {name!r}; "
+                            + (f"did you mean {close[0]!r}? " if close else "") + "There are "
                             + ", ".join(OpenOptions.__annotations__))
     return arguments
+
+
+def path_of(path: PathLike) -> str:
+    """A path as str. Raises TypeError, in Python's words, for what is no path."""
+    return os.fsdecode(path)
+
+
+def _list_of(name: str, value: Any) -> list[Any]:
+    """A str is a sequence of its letters, which nobody means."""
+    if isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{name} is a list, not {value!r}; write [{value!r}]")
+    return list(value)
 
 
 def _select_physics(arguments: OpenArguments, text: str) -> None:

@@ -31,10 +31,10 @@ def as_text(value: Any) -> str:
 
 
 def as_targets(value: Any) -> str:
-    """Paths for a relationship: one str, or a list of them; None for none."""
+    """Paths for a relationship: one str or prim, or a list of them; None for none."""
     if value is None:
         return "None"
-    paths = [value] if isinstance(value, str) else list(value)
+    paths = [value] if isinstance(value, str) or hasattr(value, "path") else list(value)
     return ", ".join(f"<{getattr(path, 'path', path)}>" for path in paths)
 
 

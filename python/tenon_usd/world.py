@@ -9,15 +9,19 @@ world. Nothing depends on the number of threads.
 
 from __future__ import annotations
 
+import operator
 import os
+import warnings
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tenon
-from .errors import Error, InvalidError, UnstableError
+from ._arrays import checked_poses, counted, finite, index, locked, place, spread, texts
+from ._lists import no_such, table
+from .errors import Error, ExportWarning, InvalidError, NotFoundError, UnstableError
 from .options import OpenOptions, PathLike, arguments_of
 
 if TYPE_CHECKING:
@@ -27,6 +31,11 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 OUTPUTS = ("contacts", "efforts", "reactions", "accelerations", "work", "sensors")
+#: The parts of World.work().
+WORK = ("drives", "applied", "contacts", "constraints", "damping", "springs", "changes")
+#: Numbers of objects that World.set_parameter() sets.
+PARAMETERS = ("bodyMass", "colliderFriction", "driveStiffness", "driveDamping", "driveMaxForce",
+              "jointDamping", "jointFriction", "jointArmature")
 
 
 class World:
@@ -38,9 +47,14 @@ class World:
     tenon_usd.engines(); None: what the asset's variant asks for, else MuJoCo. `threads` are as many
     as the process may use where it is 0. `time_step` [s] is the asset's where it is 0. `outputs`
     name what can be read beside states: contacts, efforts, reactions, accelerations, work, sensors.
-    `vary` are texts such as "bodyMass=0.8..1.2", "gravity=0.9..1.1" or
+    World.outputs has them. `vary` are texts such as "bodyMass=0.8..1.2", "gravity=0.9..1.1" or
     "colliderFriction@/can=0.5..1.5": what each environment draws of them depends on `seed` and its
     number alone. `options` are those of tenon_usd.open(). Raises errors of tenon_usd.errors.
+
+    Properties are read-only arrays of that moment: what is written into them would be lost, so that
+    it raises. Whole properties are set (world.joint_positions = ...); methods give arrays that
+    belong to the caller. Ctrl-C ends step() between two steps, all environments at the same one.
+    A world is in one process and is not copied or pickled: see save() and restore().
     """
 
     def __init__(
@@ -57,8 +71,14 @@ class World:
         integrator: str = "",
         **options: Unpack[OpenOptions],
     ) -> None:
+        envs = counted("envs", envs)
+        self._outputs = texts("outputs", outputs)
+        for name in self._outputs:
+            if name not in OUTPUTS:
+                raise InvalidError(f"outputs: {no_such(name, OUTPUTS)}")
         how = _tenon.BatchOptions(
-            engine or "", envs, threads, seed, time_step, list(outputs), list(vary), integrator
+            engine or "", envs, counted("threads", threads), counted("seed", seed),
+            float(time_step), self._outputs, texts("vary", vary), integrator
         )
         if isinstance(asset, _tenon.Stage):
             if options:
@@ -66,6 +86,7 @@ class World:
             self._batch = _tenon.make_batch_of(asset, how)
         else:
             self._batch = _tenon.make_batch(os.fspath(asset), arguments_of(options), how)
+        self._lost: list[Diagnostic] = []  # by the models of to_mjcf()
         drives = [drive for joint in self._batch.scene().joints for drive in joint.drives]
         self._first_targets = np.array([drive.target_position for drive in drives])
         self._first_velocities = np.array([drive.target_velocity for drive in drives])
@@ -78,6 +99,11 @@ class World:
     def envs(self) -> int:
         """How many environments."""
         return self._batch.size
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What can be read beside states, as it was asked for."""
+        return tuple(self._outputs)
 
     @property
     def engine(self) -> str:
@@ -119,14 +145,20 @@ class World:
         return self._batch.body_names()
 
     @property
+    def joint_paths(self) -> list[str]:
+        """Paths of the joints, those without degrees of freedom too, in the order of
+        joint_reactions()."""
+        return self._batch.joint_paths()
+
+    @property
     def scene(self) -> PhysicsScene:
         """What the engine received [SI, rad], before anything was varied: a copy."""
         return self._batch.scene()
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
-        """What opening, reading and building found."""
-        return self._batch.diagnostics()
+        """What opening, reading and building found, and what to_mjcf() and model lost since."""
+        return self._batch.diagnostics() + self._lost
 
     @property
     def not_mapped(self) -> list[dict[str, Any]]:
@@ -138,21 +170,34 @@ class World:
         """What each environment drew for each text of `vary`: factors, or offsets [rad or m]."""
         return self._batch.drawn()
 
+    @property
+    def variations(self) -> list[str]:
+        """What `vary` names, without ranges: "bodyMass@/World/can"."""
+        return self._batch.variations()
+
+    def set_drawn(self, env: SupportsIndex, numbers: Sequence[Sequence[float]]) -> None:
+        """What an environment draws from its next reset() on: numbers for each of `variations`, as
+        `drawn` has them, factors or offsets [rad or m]. Fields of the scene ("joints.upper") are
+        part of the model and keep theirs; InvalidError for others."""
+        self._batch.set_drawn(self._env(env), [list(map(float, row)) for row in numbers])
+
     # ---- time
 
     @property
     def time(self) -> Array:
         """Time since the start [s], shape (envs,)."""
-        return self._batch.times()
+        return locked(self._batch.times())
 
     def step(self, count: int = 1) -> int:
         """Takes so many time steps in every environment; returns how many stand still.
 
         An environment that becomes unstable stands still from then on (failures() says why), until
         it is reset. With a single environment that raises UnstableError. Other threads of Python
-        run meanwhile.
+        run meanwhile. Ctrl-C, and what handlers of other signals raise, ends it within about 0.1 s
+        and one step: all environments have taken the same number of steps then, and go on as if
+        that number had been asked for.
         """
-        failed = self._batch.step(count)
+        failed = self._batch.step(counted("count", count))
         if failed and self.envs == 1:
             reason = self.failures()[0]
             raise UnstableError(str(reason), [reason] if reason else [])
@@ -162,8 +207,9 @@ class World:
         """Why environments stand still; None for those that do not. Length envs."""
         return self._batch.failures()
 
-    def reset(self, envs: int | Sequence[int] | npt.NDArray[Any] | None = None) -> None:
-        """Back to the start, with what was drawn: all environments, some by number, or a mask."""
+    def reset(self, envs: SupportsIndex | Sequence[int] | npt.NDArray[Any] | None = None) -> None:
+        """Back to the start, with what was drawn: all environments, some by number (-1: the last),
+        or a mask of shape (envs,) of bool."""
         which = self._which(envs)
         self._batch.reset(which)
         self._targets[which] = self._first_targets
@@ -173,8 +219,8 @@ class World:
 
     @property
     def joint_positions(self) -> Array:
-        """Positions of the joints [rad or m], shape (envs, joints)."""
-        return self._batch.joints()[0]
+        """Positions of the joints [rad or m], shape (envs, joints): read-only."""
+        return locked(self._batch.joints()[0])
 
     @joint_positions.setter
     def joint_positions(self, values: npt.ArrayLike) -> None:
@@ -182,15 +228,16 @@ class World:
 
     @property
     def joint_velocities(self) -> Array:
-        """Velocities of the joints [rad/s or m/s], shape (envs, joints)."""
-        return self._batch.joints()[1]
+        """Velocities of the joints [rad/s or m/s], shape (envs, joints): read-only."""
+        return locked(self._batch.joints()[1])
 
     @joint_velocities.setter
     def joint_velocities(self, values: npt.ArrayLike) -> None:
         self.set_joints(velocities=values)
 
     def joints(self) -> tuple[Array, Array]:
-        """Positions [rad or m] and velocities [rad/s or m/s], both of shape (envs, joints)."""
+        """Positions [rad or m] and velocities [rad/s or m/s], both of shape (envs, joints): arrays
+        of the caller's own, which set_joints() takes back."""
         return self._batch.joints()
 
     def set_joints(
@@ -203,16 +250,16 @@ class World:
         now = self._batch.joints()
         shape = now[0].shape
         self._batch.set_joints(
-            now[0] if positions is None else _spread(positions, shape),
-            now[1] if velocities is None else _spread(velocities, shape),
+            now[0] if positions is None else spread(positions, shape),
+            now[1] if velocities is None else spread(velocities, shape),
         )
 
     # ---- drives
 
     @property
     def drive_targets(self) -> Array:
-        """Position targets of the drives [rad or m], shape (envs, drives): a copy."""
-        return self._targets.copy()
+        """Position targets of the drives [rad or m], shape (envs, drives): read-only."""
+        return locked(self._targets.copy())
 
     @drive_targets.setter
     def drive_targets(self, values: npt.ArrayLike) -> None:
@@ -228,7 +275,7 @@ class World:
         changes then.
         """
         shape = self._targets.shape
-        wanted = [None if v is None else _finite(v, shape) for v in (positions, velocities)]
+        wanted = [None if v is None else finite(v, shape) for v in (positions, velocities)]
         for held, new in zip((self._targets, self._target_velocities), wanted):
             if new is not None:
                 held[:] = new
@@ -239,7 +286,7 @@ class World:
 
         They hold until they are set anew or reset.
         """
-        self._batch.set_efforts(_spread(efforts, (self.envs, len(self.joint_names))))
+        self._batch.set_efforts(spread(efforts, (self.envs, len(self.joint_names))))
 
     def drive_efforts(self) -> Array:
         """Mean forces of the drives in the last step [N m or N], shape (envs, drives).
@@ -252,47 +299,54 @@ class World:
 
     @property
     def body_poses(self) -> Array:
-        """Poses of the bodies, shape (envs, bodies, 7): x, y, z [m], then w, x, y, z."""
-        return self._batch.body_poses()
+        """Poses of the bodies, shape (envs, bodies, 7): x, y, z [m], then w, x, y, z: read-only."""
+        return locked(self._batch.body_poses())
 
     @property
     def body_velocities(self) -> Array:
         """Velocities of the bodies, shape (envs, bodies, 6): linear, of the centre of mass [m/s],
-        then angular [rad/s]."""
-        return self._batch.body_states()[1]
+        then angular [rad/s]: read-only."""
+        return locked(self._batch.body_states()[1])
 
     def set_body(
-        self, body: str | int, poses: npt.ArrayLike, velocities: npt.ArrayLike | None = None
+        self,
+        body: str | SupportsIndex,
+        poses: npt.ArrayLike,
+        velocities: npt.ArrayLike | None = None,
     ) -> None:
         """Puts a body that moves freely elsewhere: poses (envs, 7) [m], velocities (envs, 6)
-        [m/s, rad/s], as body_poses and body_velocities have them, or what broadcasts to it."""
+        [m/s, rad/s], as body_poses and body_velocities have them, or what broadcasts to it.
+
+        `body` is a path or an index into body_names. Quaternions are made unit ones. InvalidError
+        for a quaternion of 0 and for what is not finite.
+        """
         self._batch.set_body(
             self._body(body),
-            _spread(poses, (self.envs, 7)),
-            np.zeros((self.envs, 6)) if velocities is None else _spread(velocities, (self.envs, 6)),
+            checked_poses(poses, self.envs),
+            np.zeros((self.envs, 6)) if velocities is None else spread(velocities, (self.envs, 6)),
         )
 
-    def move_kinematic(self, body: str | int, poses: npt.ArrayLike) -> None:
+    def move_kinematic(self, body: str | SupportsIndex, poses: npt.ArrayLike) -> None:
         """Moves a kinematic body within the next step to poses (envs, 7) [m]; there it stands."""
-        self._batch.move_kinematic(self._body(body), _spread(poses, (self.envs, 7)))
+        self._batch.move_kinematic(self._body(body), checked_poses(poses, self.envs))
 
-    def set_wrench(self, body: str | int, wrenches: npt.ArrayLike) -> None:
+    def set_wrench(self, body: str | SupportsIndex, wrenches: npt.ArrayLike) -> None:
         """Forces [N] and torques [N m] at the centre of mass of a body, shape (envs, 6).
 
         They hold until they are set anew or reset.
         """
-        self._batch.set_wrench(self._body(body), _spread(wrenches, (self.envs, 6)))
+        self._batch.set_wrench(self._body(body), spread(wrenches, (self.envs, 6)))
 
     # ---- numbers of each environment
 
     @property
     def gravity(self) -> Array:
-        """Gravity [m/s^2], shape (envs, 3)."""
-        return self._batch.gravity()
+        """Gravity [m/s^2], shape (envs, 3): read-only."""
+        return locked(self._batch.gravity())
 
     @gravity.setter
     def gravity(self, values: npt.ArrayLike) -> None:
-        self._batch.set_gravity(_spread(values, (self.envs, 3)))
+        self._batch.set_gravity(spread(values, (self.envs, 3)))
 
     def set_parameter(self, name: str, path: str, values: npt.ArrayLike, drive: int = 0) -> None:
         """A number of one object in every environment, shape (envs,) or one for all.
@@ -302,6 +356,8 @@ class World:
         "jointFriction" [N m or N] or "jointArmature" [kg m^2 or kg]; `path` the body, collider or
         joint; `drive` the number of the drive at the joint. It holds until it is set anew or reset.
         """
+        if name not in PARAMETERS:
+            raise NotFoundError(f"parameter: {no_such(name, PARAMETERS)}")
         paths = (
             self.body_names
             if name.startswith("body")
@@ -309,16 +365,44 @@ class World:
             if name.startswith("collider")
             else self._batch.joint_paths()
         )
-        self._batch.set_parameter(name, _index(paths, path), drive, _spread(values, (self.envs,)))
+        self._batch.set_parameter(
+            name, index(paths, path), counted("drive", drive), spread(values, (self.envs,))
+        )
 
     @property
     def energy(self) -> Array:
-        """Kinetic and potential energy [J], shape (envs, 2)."""
-        return self._batch.energies()
+        """Kinetic and potential energy [J], shape (envs, 2): read-only."""
+        return locked(self._batch.energies())
+
+    # ---- outputs of the last step
+
+    def joint_reactions(self) -> Array:
+        """What body 0 exerts on body 1 through each joint of joint_paths, drives, limits and
+        friction included, shape (envs, joint paths, 6): force [N], then torque about the origin of
+        frame 1 [N m], world axes. Needs outputs=["reactions"]."""
+        return self._batch.joint_reactions()
+
+    def body_accelerations(self) -> Array:
+        """Change of body_velocities by time, gravity included, shape (envs, bodies, 6): linear
+        [m/s^2], then angular [rad/s^2]. Needs outputs=["accelerations"]."""
+        return self._batch.body_accelerations()
+
+    def joint_accelerations(self) -> Array:
+        """Change of joint_velocities by time [rad/s^2 or m/s^2], shape (envs, joints). Needs
+        outputs=["accelerations"]."""
+        return self._batch.joint_accelerations()
+
+    def work(self) -> dict[str, Array]:
+        """Work since the start [J] by what does it, each of shape (envs,): "drives", "applied"
+        (efforts and wrenches that were set), "contacts" (friction included), "constraints",
+        "damping", "springs" and "changes" (what was set or animated). The energy at the start and
+        their sum is the energy now, less the error of the integrator. Needs outputs=["work"]."""
+        parts = self._batch.work()
+        return {name: parts[:, i] for i, name in enumerate(WORK)}
 
     # ---- what happened
 
-    def contacts(self, env: int = 0) -> dict[str, npt.NDArray[Any]]:
+    def contacts(self, env: SupportsIndex = 0) -> dict[str, npt.NDArray[Any]]:
         """The points at which colliders touched in the last step: arrays of length count.
 
         "collider0", "collider1": indices into scene.colliders; "body0", "body1": into body_names,
@@ -326,14 +410,14 @@ class World:
         collider1; "depth" [m]; "normal_force" [N]; "force" (count, 3) [N], on collider1, friction
         included; "friction_torque" (count, 3) [N m]. Needs outputs=["contacts"].
         """
-        return self._batch.contacts(env)
+        return self._batch.contacts(self._env(env))
 
     @property
     def contact_counts(self) -> npt.NDArray[np.int64]:
-        """How many points touch, shape (envs,)."""
-        return self._batch.contact_counts()
+        """How many points touch, shape (envs,): read-only."""
+        return locked(self._batch.contact_counts())
 
-    def sensors(self, env: int = 0) -> list[dict[str, Any]]:
+    def sensors(self, env: SupportsIndex = 0) -> list[dict[str, Any]]:
         """What the sensors of the asset read last, one row each: "path", "kind", "time" [s].
 
         Of contacts "in_contact" and "normal_force" [N]; of IMUs "linear_acceleration" [m/s^2],
@@ -342,11 +426,11 @@ class World:
         "linear_velocity" [m/s] and "angular_velocity" [rad/s]; of rays "distances" [m], -1 where
         there is nothing. Needs outputs=["sensors"].
         """
-        return self._batch.sensors(env)
+        return self._batch.sensors(self._env(env))
 
-    def events(self, env: int = 0) -> list[dict[str, Any]]:
+    def events(self, env: SupportsIndex = 0) -> list[dict[str, Any]]:
         """Joints that broke and bodies that passed through others: {"time" [s], "prim", "what"}."""
-        return self._batch.events(env)
+        return self._batch.events(self._env(env))
 
     # ---- states
 
@@ -368,13 +452,14 @@ class World:
 
     # ---- models of MuJoCo
 
-    def to_mjcf(self, path: PathLike | None = None, env: int = 0) -> str:
+    def to_mjcf(self, path: PathLike | None = None, env: SupportsIndex = 0) -> str:
         """The model as MJCF text, for MuJoCo, MJX and mujoco_warp; written to `path` as well.
 
-        Textures are written beside it. What MJCF has no word for raises nothing: see not_mapped.
+        Textures are written beside it. What this world has and the model has not, such as limits of
+        velocity, is an ExportWarning, and each finding is in `diagnostics`.
         """
         name = "" if path is None else os.path.splitext(os.path.basename(os.fspath(path)))[0]
-        text, images, _ = self._batch.to_mjcf(env, name + "_files" if name else "")
+        text, images = self._export(self._env(env), name + "_files" if name else "")
         if path is not None:
             _tenon.write_files(os.fspath(path), text.encode(), images)
         return text
@@ -391,15 +476,58 @@ class World:
             from .errors import MissingError
 
             raise MissingError(f"mujoco cannot be imported: {reason}; pip install mujoco") from None
-        text, images, _ = self._batch.to_mjcf(0, "")
+        text, images = self._export(0, "")
         return mujoco.MjModel.from_xml_string(text, images)
+
+    def _export(self, env: int, folder: str) -> tuple[str, dict[str, bytes]]:
+        """The model of an environment, and what it loses said once."""
+        text, images, found = self._batch.to_mjcf(env, folder)
+        known = {(one.rule, one.prim, one.message) for one in self.diagnostics}
+        lost = [one for one in found if (one.rule, one.prim, one.message) not in known]
+        self._lost += lost
+        told = [one for one in lost if one.severity in ("warning", "error")]
+        if told:
+            more = f" (and {len(told) - 1} more in World.diagnostics)" if len(told) > 1 else ""
+            warnings.warn(f"{told[0]}{more}", ExportWarning, stacklevel=3)
+        return text, images
 
     # ---- the rest
 
     def __repr__(self) -> str:
-        return f"<World of {self.envs} environments on {self.engine}>"
+        return (
+            f"<World of {self.envs} environments on {self.engine}: {len(self.body_names)} bodies, "
+            f"{len(self.joint_names)} joints, {len(self.drive_names)} drives, "
+            f"step {self.time_step:g} s>"
+        )
 
-    def _which(self, envs: int | Sequence[int] | npt.NDArray[Any] | None) -> list[int]:
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            ("environments", self.envs),
+            ("engine", f"{self.engine} {self.engine_version}"),
+            ("time step [s]", f"{self.time_step:g}"),
+            ("time [s]", f"{self.time.min():g} to {self.time.max():g}"),
+            ("bodies", len(self.body_names)),
+            ("joint coordinates", len(self.joint_names)),
+            ("drives", len(self.drive_names)),
+            ("outputs", ", ".join(self.outputs) or "none"),
+            ("stand still", sum(failure is not None for failure in self.failures())),
+        ]
+        return table(["", ""], rows, "World")
+
+    def __copy__(self) -> NoReturn:
+        raise TypeError(_NO_COPY)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> NoReturn:
+        raise TypeError(_NO_COPY)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError(_NO_COPY)
+
+    def _env(self, env: SupportsIndex) -> int:
+        return place("environment", env, self.envs)
+
+    def _which(self, envs: SupportsIndex | Sequence[int] | npt.NDArray[Any] | None) -> list[int]:
         if envs is None:
             return list(range(self.envs))
         chosen = np.atleast_1d(np.asarray(envs))
@@ -407,29 +535,19 @@ class World:
             if chosen.shape != (self.envs,):
                 raise ValueError(f"a mask of shape {chosen.shape} for {self.envs} environments")
             chosen = np.flatnonzero(chosen)
-        return [int(i) for i in chosen]
+        elif chosen.size and chosen.dtype.kind not in "iu":
+            raise TypeError(f"environments are numbers of type int or a mask, not {envs!r}")
+        return [self._env(int(i)) for i in chosen.reshape(-1)]
 
-    def _body(self, body: str | int) -> int:
-        return body if isinstance(body, int) else _index(self.body_names, body)
-
-
-def _spread(values: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    return np.ascontiguousarray(np.broadcast_to(array, shape))
+    def _body(self, body: str | SupportsIndex) -> int:
+        names = self.body_names
+        return index(names, body) if isinstance(body, str) else place("body", body, len(names))
 
 
-def _finite(values: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
-    array = _spread(values, shape)
-    if not np.isfinite(array).all():
-        raise InvalidError("targets must be finite numbers")
-    return array
+_NO_COPY = (
+    "a World cannot be copied or pickled: its engine is in this process alone; make another World "
+    "of the asset and restore(save()) the state, in another process from the bytes of save()"
+)
 
 
-def _index(paths: list[str], path: str) -> int:
-    try:
-        return paths.index(path)
-    except ValueError:
-        raise LookupError(f"there is no {path!r}; there are {', '.join(paths[:20])}") from None
-
-
-__all__ = ["OUTPUTS", "Error", "World"]
+__all__ = ["OUTPUTS", "PARAMETERS", "WORK", "Error", "World"]

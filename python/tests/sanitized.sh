@@ -25,7 +25,7 @@ export PYTHONPATH=$folder ASAN_OPTIONS=detect_leaks=0:detect_odr_violation=0
 export PYTHONMALLOC=malloc
 preload="$(c++ -print-file-name=libasan.so) $(c++ -print-file-name=libubsan.so)"
 run() { LD_PRELOAD="$preload" "$clean/bin/python" -B "$@"; }
-for test in stage physics dynamics world functions; do
+for test in arrays dynamics edits functions physics stage world; do
   run "python/tests/test_$test.py"
 done
 run python/tests/many_opens.py 50 4 --sanitized

@@ -148,6 +148,37 @@ class Files(support.FilesTestCase):
         with self.assertRaises(tenon.InvalidError):
             tenon.convert(ROBOT, self.folder / "arm.usda", gains="many")
 
+    def test_values_go_to_joints_and_links_by_name(self):
+        link = ('<link name="{0}">{1}<collision><geometry><box size="1 1 1"/></geometry>'
+                "</collision></link>")
+        mass = ('<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" '
+                'iyz="0"/></inertial>')
+        joint = ('<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
+                 '<limit lower="0.5" upper="1.5" effort="9" velocity="9"/></joint>')
+        robot = self.folder / "r.urdf"
+        robot.write_text('<robot name="r">' + link.format("a", mass) + link.format("b", mass) +
+                         link.format("c", "") + joint.format("wrist", "a", "b") +
+                         joint.format("elbow", "b", "c") + "</robot>")
+        output = self.folder / "r.usda"
+        tenon.convert(robot, output, gains={"*": (100, 10), "w.*": (20, 2)}, armature=0.5,
+                      friction={"elbow": 0.25}, density=100, start="valid", fix_base=True)
+        scene = tenon.physics(output)
+        joints = {joint.path.rpartition("/")[2]: joint for joint in scene.joints}
+        self.assertAlmostEqual(joints["wrist"].drives[0].stiffness, 20, places=4)
+        self.assertAlmostEqual(joints["elbow"].drives[0].stiffness, 100, places=4)
+        self.assertEqual([joints[name].armature for name in ("wrist", "elbow")], [0.5, 0.5])
+        self.assertEqual([joints[name].friction for name in ("wrist", "elbow")], [0, 0.25])
+        self.assertAlmostEqual(joints["wrist"].initial_position, 0.55, places=5)
+        masses = {body.path.rpartition("/")[2]: body.mass for body in scene.bodies}
+        self.assertAlmostEqual(masses["c"], 100, places=3)
+        for wrong, kind in (({"gains": {"wirst": (1, 2)}}, tenon.NotFoundError),
+                            ({"collision": {"a": "sphere"}}, tenon.NotFoundError),
+                            ({"collision": "box"}, tenon.InvalidError),
+                            ({"armature": -1}, tenon.InvalidError),
+                            ({"start": "middle"}, ValueError), ({"density": 0}, ValueError)):
+            with self.subTest(wrong), self.assertRaises(kind):
+                tenon.convert(robot, output, force=True, **wrong)
+
     def test_nothing_is_written_over_an_input(self):
         robot = self.folder / "arm.urdf"
         shutil.copytree(ROBOT.parent, self.folder, dirs_exist_ok=True)

@@ -70,10 +70,11 @@ class Command(unittest.TestCase):
 
 def documented():
     """(name, object) of everything public: functions, classes, their methods and properties."""
-    from tenon_usd import dynamics, errors, functions, log, options, tables, text, world
+    from tenon_usd import (
+        draws, dynamics, errors, functions, log, options, recording, tables, text, world)
 
-    for module in (tenon, tenon._tenon, dynamics, errors, functions, log, options, tables, text,
-                   world):
+    for module in (tenon, tenon._tenon, draws, dynamics, errors, functions, log, options,
+                   recording, tables, text, world):
         for name, one in vars(module).items():
             own = getattr(one, "__module__", "").startswith("tenon_usd") or (
                 getattr(one, "__module__", "") == "_tenon")

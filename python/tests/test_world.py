@@ -3,6 +3,7 @@
 """Simulations from Python: arrays in and out, states, contacts, the same bits for all threads."""
 
 import threading
+import warnings
 
 import numpy as np
 import support
@@ -10,6 +11,31 @@ import support
 import tenon_usd as tenon
 
 HAND = {"physics": "physics"}
+
+
+FAST = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{
+    def Cube "arm" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
+    {
+        double size = 0.2
+        double3 xformOp:translate = (1, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def PhysicsRevoluteJoint "hinge" (prepend apiSchemas = ["PhysxJointAPI"])
+    {
+        rel physics:body1 = </World/arm>
+        uniform token physics:axis = "Y"
+        point3f physics:localPos1 = (-1, 0, 0)
+        float physxJoint:maxJointVelocity = 60
+    }
+}
+"""
 
 
 class Assets(support.FilesTestCase):
@@ -260,6 +286,21 @@ class Engines(support.FilesTestCase):
         model = world.model
         self.assertIsInstance(model, mujoco.MjModel)
         self.assertEqual(model.nv, world.dofs)
+
+    def test_what_models_for_mujoco_lose_is_told(self):
+        """A limit of velocity acts in this world, and no model of MuJoCo has any."""
+        path = self.folder / "arm.usda"
+        path.write_text(FAST)
+        world = tenon.World(path, engine="mujoco")
+        self.assertNotIn("mujoco.not-mapped", [found.rule for found in world.diagnostics])
+        with self.assertWarnsRegex(tenon.ExportWarning, "limits of velocity"):
+            world.to_mjcf()
+        [lost] = [found for found in world.diagnostics if found.rule == "mujoco.not-mapped"]
+        self.assertEqual((lost.prim, lost.severity), ("/World/hinge", "warning"))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            world.to_mjcf()  # it is told once
+            tenon.World(support.GRASP)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ for version in 3.12 3.13 3.14; do
   rm -rf "$folder"
   "$found" -m venv "$folder"
   "$folder/bin/python" -m pip install --quiet --disable-pip-version-check numpy "$wheel"
-  for test in stage physics dynamics world functions package; do
+  for test in arrays dynamics edits functions package physics processes stage world; do
     "$folder/bin/python" -B "python/tests/test_$test.py"
   done
   good+=" $version"

@@ -48,7 +48,8 @@ bool is_as_asked(const stage::Prim& prim, const AssetEdit& edit, const PropertyV
       });
     }
     case AssetEdit::Kind::DefinePrim:
-      return prim.is_defined() && prim.type_name() == edit.type_name;
+      return prim.is_defined() && (prim.type_name() == edit.type_name ||
+                                   (edit.arc && edit.type_name.empty()));  // what it brings in has
     case AssetEdit::Kind::AddVariant: {
       const std::size_t equals = edit.value.find('=');
       const auto names = prim.variant_names(edit.value.substr(0, equals));

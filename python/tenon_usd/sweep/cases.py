@@ -20,7 +20,11 @@ class ExtraMissing(RuntimeError):
     """An optional package is not installed; the message says how to get it."""
 
     def __init__(self, package: str, extra: str, what: str) -> None:
+        self._about = (package, extra, what)
         super().__init__(f"{what} needs {package}: pip install 'tenon-usd[{extra}]'")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ExtraMissing, self._about
 
 
 @dataclasses.dataclass(frozen=True)

@@ -52,6 +52,9 @@ class PlanError(ValueError):
         self.path, self.faults = path, tuple(faults)
         super().__init__("\n".join(f"{path}{fault}" for fault in self.faults))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PlanError, (self.path, self.faults)
+
 
 @dataclasses.dataclass(frozen=True)
 class Vary:

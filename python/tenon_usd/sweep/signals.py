@@ -155,7 +155,7 @@ def _start_joint(path: str, world: World) -> Setter:
     at = _at(world.joint_names, path, "joint")
 
     def put(world: World, value: float) -> None:
-        positions = world.joint_positions
+        positions, _ = world.joints()
         positions[0, at] = value
         world.set_joints(positions=positions)
     return put

@@ -5,6 +5,7 @@ What a row says is the same wherever it was made."""
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import importlib
 import math
@@ -95,7 +96,7 @@ class _Tally:
 def run_on_threads(results: Results, chunks: Sequence[int], make_runner: MakeRunner, threads: int,
                    progress: Progress | None = None) -> None:
     """Works on the chunks on so many threads. Errors: the first of any thread, after which the
-    others end with the chunk that they are at."""
+    others end with the chunk that they are at. Ctrl-C ends them where they are."""
     tally = _Tally(results, chunks, progress)
     waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
     for number in chunks:
@@ -123,10 +124,21 @@ def run_on_threads(results: Results, chunks: Sequence[int], make_runner: MakeRun
     try:
         for thread in running:
             thread.join()
-    finally:
+    except BaseException:
         stop.set()
+        for thread in running:
+            _raise_in(thread, KeyboardInterrupt)
+        raise
     if faults:
         raise faults[0]
+
+
+def _raise_in(thread: threading.Thread, kind: type[BaseException]) -> None:
+    """Raises an exception in another thread, when it runs code of Python next; steps of a World
+    look for it, too."""
+    if thread.ident is not None:  # a join() that is interrupted takes a thread for dead
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(
+            ctypes.c_ulong(thread.ident), ctypes.py_object(kind))
 
 
 def shard_of(chunk_count: int, shard: tuple[int, int] | None) -> range:
