@@ -3,6 +3,7 @@
 """Authoring beyond single values: blocks of edits, what is refused with the name that was meant,
 references, renaming, variants, metadata."""
 
+import pathlib
 import time
 import warnings
 
@@ -38,6 +39,15 @@ class Blocks(support.FilesTestCase):
         self.assertTrue(stage.undo())
         self.assertFalse(stage.undo())
         self.assertEqual((stage[INDEX][MASS], stage[THUMB][MASS]), (index, thumb))
+
+    def test_a_file_may_be_named_by_its_end(self):
+        stage, _, _ = self.hand()
+        owner = stage[INDEX].set(MASS, 2.0)[0]["file"]
+        for name in (pathlib.Path(owner).name, "/".join(pathlib.Path(owner).parts[-2:])):
+            stage[INDEX].set(MASS, 3.0, layer=name)
+            self.assertEqual(stage[INDEX][MASS], 3.0)
+        with self.assertRaisesRegex(tenon.Error, "no layer of the asset is called"):
+            stage[INDEX].set(MASS, 4.0, layer="nope.usda")
 
     def test_what_is_read_in_a_block_is_as_edited(self):
         stage = tenon.new(self.folder / "a.usda")

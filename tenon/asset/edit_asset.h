@@ -62,7 +62,7 @@ struct AssetEdit {
   Token field;        ///< of the stage: "metersPerUnit"
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it; of a prim
   std::string engine{};  ///< its file alone, whatever EditOptions::engine says
-  std::string layer{};   ///< this file alone, by its identifier
+  std::string layer{};   ///< this file alone, by its identifier, its path or the end of it
   /// Edits of one number are one wish, which has an effect when one of them has one; none: a wish
   /// of its own.
   std::optional<std::size_t> wish{};

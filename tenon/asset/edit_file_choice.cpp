@@ -9,6 +9,7 @@
 // the owner.
 #include "tenon/asset/edit_file_choice.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "tenon/bytes/asset_resolver.h"
@@ -48,14 +49,15 @@ std::string listed(const std::vector<std::string>& layers) {
   return text;
 }
 
-Result<FileChoice> named_file(const FileQuestion& q) {
-  const std::string absolute = bytes::absolute_file_path(q.options.layer);
+/// By its path or the end of it.
+Result<FileChoice> named_file(const FileQuestion& q, const std::string& name) {
+  const std::string absolute = bytes::absolute_file_path(name);
   std::vector<std::string> found;
   for (const std::string& layer : q.layers) {
     if (layer == absolute) {
       return FileChoice{layer, "you asked for it"};
     }
-    if (layer.ends_with("/" + q.options.layer)) {
+    if (layer.ends_with("/" + name)) {
       found.push_back(layer);
     }
   }
@@ -63,9 +65,7 @@ Result<FileChoice> named_file(const FileQuestion& q) {
     return FileChoice{found.front(), "you asked for it"};
   }
   return no_file(
-      q,
-      (found.empty() ? "no layer of the asset is called " : "several layers are called ") +
-          q.options.layer,
+      q, (found.empty() ? "no layer of the asset is called " : "several layers are called ") + name,
       "choose one of: " + listed(q.layers));
 }
 
@@ -250,11 +250,14 @@ std::optional<stage::LayerSite> site_for(const stage::Stage& stage, const AssetE
 std::string file_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 Result<FileChoice> choose_file(const FileQuestion& question) {
-  if (!question.edit.layer.empty()) {
-    return FileChoice{question.edit.layer, "it says so"};
+  if (const std::string& name = question.edit.layer; !name.empty()) {
+    const auto& layers = question.layers;
+    const bool is_identifier =
+        name.front() == '/' || std::find(layers.begin(), layers.end(), name) != layers.end();
+    return is_identifier ? FileChoice{name, "it says so"} : named_file(question, name);
   }
   if (!question.options.layer.empty()) {
-    return named_file(question);
+    return named_file(question, question.options.layer);
   }
   if (!question.options.engine.empty() || !question.edit.engine.empty()) {
     return engine_file(question);
