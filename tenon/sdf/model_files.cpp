@@ -59,7 +59,7 @@ std::optional<std::string> ModelFiles::path_in_model(const std::string& name,
     return std::nullopt;
   }
   const auto in = [&](const fs::path& folder) -> std::optional<std::string> {
-    const std::string path = (folder / rest).lexically_normal().generic_string();
+    std::string path = (folder / rest).lexically_normal().generic_string();
     if (!exists(path)) {
       return std::nullopt;
     }
@@ -99,7 +99,7 @@ std::optional<std::string> ModelFiles::path_of(const std::string& uri, const Sdf
   if (plain.empty() || plain.find("://") != std::string::npos) {
     return std::nullopt;
   }
-  const std::string path = (fs::path(from.folder()) / plain).lexically_normal().generic_string();
+  std::string path = (fs::path(from.folder()) / plain).lexically_normal().generic_string();
   if (exists(path)) {
     return path;
   }
