@@ -179,8 +179,8 @@ void open_libraries(Reader reader) {
     mesh::has_assimp();
   }
 #if TENON_WITH_MUJOCO
-  if (reader != Reader::Mesh) {
-    static_cast<void>(engines::mujoco::open_mujoco());  // a reader reports the failure
+  if (reader != Reader::Mesh && !engines::mujoco::open_mujoco()) {
+    return;  // a reader reports the failure
   }
 #endif
 }
