@@ -55,9 +55,7 @@ void write_side(LayerBuilder& builder, Path joint, int side, Path body, const Po
   builder.set_rotation(joint, type, "physics:localRot" + end, frame.orientation);
 }
 
-namespace {
-
-const char* type_of(JointKind kind) {
+const char* joint_type(JointKind kind) {
   switch (kind) {
     case JointKind::Fixed:
       return "PhysicsFixedJoint";
@@ -75,6 +73,8 @@ const char* type_of(JointKind kind) {
   return "PhysicsJoint";
 }
 
+namespace {
+
 /// The joint's frame in the child link, axis included.
 Pose joint_frame(const robot::Joint& joint) {
   Pose frame = joint.frame;
@@ -89,7 +89,7 @@ void write_dofs(LayerBuilder& builder, Path path, const robot::Joint& joint,
                 const ConvertOptions& options) {
   const std::string axis = axis_turn(joint.axis).token;
   if (joint.has_one_axis()) {
-    builder.set_value(path, type_of(joint.kind), "physics:axis", Value(Token(axis)));
+    builder.set_value(path, joint_type(joint.kind), "physics:axis", Value(Token(axis)));
     JointPrinter(builder, path, joint, axis, options).print();
   } else if (joint.kind == JointKind::Ball) {
     JointPrinter(builder, path, joint, axis, options).print_passive();
@@ -130,7 +130,7 @@ Path write_joint(const Source& source, const LinkPrims& links, const robot::Join
   if (!has_prim(source, links, joint, physics.layer())) {
     return {};
   }
-  const Path path = physics.define(joint.name, type_of(joint.kind));
+  const Path path = physics.define(joint.name, joint_type(joint.kind));
   const Pose frame = joint_frame(joint);
   write_side(physics.builder(), path, 0, links.host(joint.parent).path,
              links[joint.parent].in_host * joint.origin * frame);

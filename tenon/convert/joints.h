@@ -24,6 +24,9 @@ struct JointPrims {
 /// none on the stage.
 JointPrims write_joints(const Source& source, const LinkPrims& links, PhysicsScope& physics);
 
+/// The type of the prim of a joint: "PhysicsRevoluteJoint".
+const char* joint_type(robot::JointKind kind);
+
 /// Writes what a joint holds at one side: `frame` of the joint in `body`, which is empty for the
 /// world.
 void write_side(LayerBuilder& builder, Path joint, int side, Path body, const Pose& frame);

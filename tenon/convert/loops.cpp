@@ -11,20 +11,6 @@ using robot::JointKind;
 
 namespace {
 
-const char* type_of_loop(JointKind kind) {
-  switch (kind) {
-    case JointKind::Fixed:
-      return "PhysicsFixedJoint";
-    case JointKind::Revolute:
-    case JointKind::Continuous:
-      return "PhysicsRevoluteJoint";
-    case JointKind::Prismatic:
-      return "PhysicsPrismaticJoint";
-    default:
-      return "PhysicsSphericalJoint";
-  }
-}
-
 /// What MuJoCo's own models say of a loop.
 void write_equality(const robot::LoopJoint& loop, Path path, LayerBuilder& builder) {
   const bool weld = loop.kind == JointKind::Fixed;
@@ -47,7 +33,7 @@ void write_loops(const std::vector<robot::LoopJoint>& loops, const LinkPrims& li
                  PhysicsScope& physics) {
   LayerBuilder& builder = physics.builder();
   for (const robot::LoopJoint& loop : loops) {
-    const char* const type = type_of_loop(loop.kind);
+    const char* const type = joint_type(loop.kind);
     const Path path = physics.define(loop.name, type);
     const bool has_axis = loop.kind != JointKind::Fixed && loop.kind != JointKind::Ball;
     const AxisTurn turn = axis_turn(loop.axis);
