@@ -22,7 +22,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree
 
 ROOT, TENON = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve())
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -127,11 +126,9 @@ def by_mujoco(path, gravity=1.0):
 
 def without_shapes(source, copy):
     """The description of what moves alone: nothing touches, and no mesh is read."""
-    robot = xml.etree.ElementTree.parse(source)
-    for link in robot.getroot().findall("link"):
-        for part in link.findall("visual") + link.findall("collision"):
-            link.remove(part)
-    robot.write(copy)
+    text = source.read_text(encoding="utf-8", errors="replace")
+    copy.write_text(re.sub(r"<(visual|collision)\b.*?</\1>", "", text, flags=re.DOTALL),
+                    encoding="utf-8")
     return copy
 
 
