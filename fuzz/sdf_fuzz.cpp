@@ -6,8 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tenon/convert/convert_robot.h"
-#include "tenon/formats/save_layer.h"
+#include "fuzz/convert_model.h"
 #include "tenon/robot/check_model.h"
 #include "tenon/sdf/read_sdf.h"
 
@@ -26,13 +25,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!tenon::robot::check_model(*model)) {
     std::abort();
   }
-  tenon::convert::ConvertOptions options;
-  options.flat = size % 2 == 0;
-  options.merge_fixed = size % 3 == 0;
-  options.schema = tenon::convert::SchemaGeneration::Both;
-  const auto layer = tenon::convert::convert_robot(*std::move(model), options, diagnostics);
-  if (layer && !tenon::formats::encode_layer(*layer, tenon::formats::LayerFormat::Text)) {
-    std::abort();
-  }
+  tenon::fuzz::convert_model(*std::move(model), size, diagnostics);
   return 0;
 }

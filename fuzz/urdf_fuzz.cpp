@@ -4,11 +4,9 @@
 // Input: text of a robot description. What can be read and is a tree converts, and the layer is
 // written as text.
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
-#include "tenon/convert/convert_robot.h"
-#include "tenon/formats/save_layer.h"
+#include "fuzz/convert_model.h"
 #include "tenon/urdf/read_urdf.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -21,13 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!model) {
     return 0;
   }
-  tenon::convert::ConvertOptions options;
-  options.flat = size % 2 == 0;
-  options.merge_fixed = size % 3 == 0;
-  options.schema = tenon::convert::SchemaGeneration::Both;
-  const auto layer = tenon::convert::convert_robot(*std::move(model), options, diagnostics);
-  if (layer && !tenon::formats::encode_layer(*layer, tenon::formats::LayerFormat::Text)) {
-    std::abort();
-  }
+  tenon::fuzz::convert_model(*std::move(model), size, diagnostics);
   return 0;
 }

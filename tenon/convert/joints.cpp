@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "tenon/convert/joint_schemas.h"
+#include "tenon/math/shortest_turn.h"
 
 namespace tenon::convert {
 
@@ -20,12 +21,6 @@ using robot::JointKind;
 
 constexpr double kAxisNoise = 1e-12;
 constexpr double kNearlyOpposite = 1e-6;
-
-/// The shortest turn between unit vectors that are not nearly opposite.
-Quatd shortest_turn(const Vec3d& from, const Vec3d& to) {
-  const Vec3d normal = cross(from, to);
-  return normalized(Quatd{normal[0], normal[1], normal[2], 1 + dot(from, to)});
-}
 
 /// Half turns about a coordinate axis have exact quaternions; for an axis along -x, -y or -z the
 /// frame is turned by one of them. What tools leave beside a 1 by their rounding does not count.

@@ -22,10 +22,10 @@
 
 #include <Eigen/Dense>
 
+#include "tenon/base/containers/disjoint_sets.h"
 #include "tenon/base/limits/physics_limits.h"
 #include "tenon/dynamics/constraints.h"
 #include "tenon/dynamics/least_energy.h"
-#include "tenon/scene/disjoint_sets.h"
 
 namespace tenon::dynamics {
 namespace {
@@ -316,7 +316,7 @@ class Dynamics::State {
 
   // Columns that loops and mimics tie together: those of one row.
   static std::vector<std::size_t> ties_of(const Eigen::MatrixXd& rows) {
-    scene::DisjointSets sets(static_cast<std::size_t>(rows.cols()));
+    DisjointSets sets(static_cast<std::size_t>(rows.cols()));
     const double least = 1e-9 * (rows.size() > 0 ? rows.cwiseAbs().maxCoeff() : 0);
     for (Eigen::Index r = 0; r < rows.rows(); ++r) {
       std::optional<std::size_t> first;

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "tenon/scene/disjoint_sets.h"
+#include "tenon/base/containers/disjoint_sets.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::scene {

@@ -6,8 +6,8 @@
 // two joints with a link of a millionth of the child's mass between. So does a screw: it turns, and
 // slides by a mimic. What the child is and what the parent, where a child has two, roots.cpp says.
 #include <cmath>
-#include <numbers>
 
+#include "tenon/math/angle.h"
 #include "tenon/sdf/sdf_draft.h"
 
 namespace tenon::sdf {
@@ -182,7 +182,7 @@ std::pair<robot::Joint, robot::Joint> JointReader::split(const robot::Joint& joi
 Result<void> JointReader::read_screw(const SdfNode& node, const robot::Joint& joint,
                                      const Axis& axis) {
   SdfFile& file = *node.file;
-  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kTurn = 2 * kPi;
   double pitch = 0;  // metres for each turn
   if (node.element.child("screw_thread_pitch") || !node.element.child("thread_pitch")) {
     TENON_TRY(pitch, file.number(node.element, "screw_thread_pitch", -kTurn));

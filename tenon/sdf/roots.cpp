@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // SDF has graphs of links, robots are trees. The first joint to a link hangs it on; another one is
-// turned round where its parent still hangs on nothing, and closes a loop else. What is left free
-// hangs on a link "world" where there are several such links.
+// turned round where its parent still hangs on nothing, and closes a loop else. Links that stay
+// free hang on a link "world" where there are several of them.
 #include <algorithm>
-#include <numeric>
 
+#include "tenon/base/containers/disjoint_sets.h"
 #include "tenon/sdf/sdf_draft.h"
 
 namespace tenon::sdf {
@@ -14,24 +14,6 @@ namespace tenon::sdf {
 using robot::JointKind;
 
 namespace {
-
-/// The links that hang together, by one of them each.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
-
-  Index of(Index link) {
-    while (above_[link] != link) {
-      above_[link] = above_[above_[link]];
-      link = above_[link];
-    }
-    return link;
-  }
-  void join(Index a, Index b) { above_[of(b)] = of(a); }
-
- private:
-  std::vector<Index> above_;
-};
 
 /// The same joint, seen from its child.
 void turn_round(robot::Joint& joint) {
@@ -64,7 +46,7 @@ void add_loop(SdfDraft& draft, const robot::Joint& joint) {
 }
 
 void close_loops(SdfDraft& draft) {
-  Groups groups(draft.model.links.size());
+  DisjointSets together(draft.model.links.size());
   std::vector<char> hangs(draft.model.links.size(), 0);
   if (draft.world) {
     hangs[*draft.world] = 1;  // on nothing, and is no child
@@ -74,13 +56,13 @@ void close_loops(SdfDraft& draft) {
   std::vector<char> is_kept(draft.model.joints.size(), 0);
   for (std::size_t i = 0; i < draft.model.joints.size(); ++i) {
     robot::Joint& joint = draft.model.joints[i];
-    const bool apart = groups.of(joint.parent) != groups.of(joint.child);
+    const bool apart = together.find(joint.parent) != together.find(joint.child);
     if (apart && hangs[joint.child] != 0 && hangs[joint.parent] == 0) {
       turn_round(joint);
     }
     if (apart && hangs[joint.child] == 0) {
       hangs[joint.child] = 1;
-      groups.join(joint.parent, joint.child);
+      together.join(joint.parent, joint.child);
       new_numbers[i] = static_cast<Index>(kept.size());
       is_kept[i] = 1;
       kept.push_back(std::move(joint));

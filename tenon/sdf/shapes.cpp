@@ -5,7 +5,7 @@
 // is turned. A mesh is known by its file and, where one part of it is meant, by that.
 #include <cmath>
 
-#include "tenon/base/text/text_number.h"
+#include "tenon/math/shortest_turn.h"
 #include "tenon/sdf/extruded.h"
 #include "tenon/sdf/shape_reader.h"
 
@@ -28,7 +28,7 @@ Quatd turn_of_normal(const Vec3d& normal) {
   if (1 + n[2] < kOpposite) {
     return {1, 0, 0, 0};
   }
-  return normalized(Quatd{-n[1], n[0], 0, 1 + n[2]});
+  return shortest_turn({{0, 0, 1}}, n);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "tenon/bytes/file_kind.h"
+
 namespace tenon {
 namespace {
 
@@ -50,7 +52,7 @@ std::optional<check::simready::ImageFacts> jpeg_header(std::string_view bytes) {
 }  // namespace
 
 std::optional<check::simready::ImageFacts> image_header(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) {
+  if (bytes::is_png(bytes)) {
     return png_header(bytes);
   }
   return bytes.starts_with("\xFF\xD8\xFF") ? jpeg_header(bytes) : std::nullopt;

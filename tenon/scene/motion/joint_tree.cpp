@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/base/containers/disjoint_sets.h"
 #include "tenon/math/inertia.h"
-#include "tenon/scene/disjoint_sets.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::scene {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace tenon::scene {
+namespace tenon {
 
 /// The numbers 0..count-1 in sets without common members; each begins in a set of its own.
 class DisjointSets {
@@ -34,4 +34,4 @@ class DisjointSets {
   std::vector<std::size_t> above_;  // (count) towards the representative of the set
 };
 
-}  // namespace tenon::scene
+}  // namespace tenon
