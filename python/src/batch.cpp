@@ -141,7 +141,7 @@ Result<void> Batch::set_drawn(std::size_t i, std::vector<std::vector<double>> nu
     }
     if (variations[v].place == VariationPlace::Field && numbers[v] != drawn[i][v]) {
       return bad(variations[v].text +
-                 " is of the model, which is made once: it cannot be drawn anew");
+                 " belongs to the model, which is built once: it cannot be drawn again");
     }
   }
   drawn[i] = std::move(numbers);

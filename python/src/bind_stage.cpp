@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stages and prims of Python: what is read (bind_edits.cpp: what is changed). A prim is a stage and
+// Stages and prims of Python: reading (edits: bind_edits.cpp). A prim is a stage and
 // a path that is looked up each time, so that it may be kept for as long as one likes, edits
 // included; a query of a prim that is gone raises.
 #include <memory>

@@ -81,7 +81,7 @@ void tell(const FieldInfo& info, const std::string& shape, FieldRow& row) {
 /// A list of objects of the scene, or those of it that a slice names.
 struct List {
   const void* first = nullptr;
-  std::size_t whole = 0;  ///< how many lie behind `first`
+  std::size_t whole = 0;  ///< how many there are from `first` on
   std::size_t start = 0;  ///< of the slice, into these, and its step
   Py_ssize_t step = 1;
   std::size_t count = 0;
@@ -107,7 +107,7 @@ nb::object list_of(const std::vector<T>& items, nb::handle owner) {
   return nb::cast(std::move(list));
 }
 
-/// Where an object of the list lies behind `first`.
+/// The address of an object of the list, counted from `first`.
 std::size_t place_in(const List& list, std::size_t at) {
   return static_cast<std::size_t>(static_cast<Py_ssize_t>(list.start) +
                                   list.step * static_cast<Py_ssize_t>(at));
@@ -187,7 +187,7 @@ nb::object column_of(const List& list, const std::string& name) {
 nb::object quaternion(const Quatd& q) {
   NewArray<> made({4});
   made.numbers = {q.w, q.x, q.y, q.z};
-  return made.take_locked();  // of a property: what is written there would be lost
+  return made.take_locked();  // of a property: a write would be lost
 }
 
 template <class T>

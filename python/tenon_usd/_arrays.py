@@ -18,7 +18,7 @@ Array = npt.NDArray[np.float64]
 
 
 def locked(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """What is written into the result of a property would be lost: it raises instead."""
+    """A write to the array that a property returns would be lost: it raises instead."""
     array.flags.writeable = False
     return array
 

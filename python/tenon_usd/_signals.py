@@ -16,7 +16,7 @@ def look() -> None:
 def _wait() -> None:
     from . import _tenon
 
-    # A program that Ctrl-C ends does not wait: it takes nothing apart that calls may still use.
+    # A program that Ctrl-C ends does not wait, and destroys nothing that calls may still use.
     ended_by = getattr(sys, "last_exc", None) or getattr(sys, "last_value", None)
     if not isinstance(ended_by, KeyboardInterrupt):
         _tenon.wait_for_left_calls()

@@ -121,7 +121,7 @@ class MissingFileError(NotFoundError, FileNotFoundError):
 
 
 class ExportWarning(UserWarning):
-    """What is written moves otherwise than the asset: World.diagnostics has all reasons."""
+    """The exported model moves unlike the asset: World.diagnostics has all reasons."""
 
 
 class UnstableError(Error, ArithmeticError):

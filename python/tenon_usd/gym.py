@@ -275,7 +275,7 @@ class SingleEnv(gymnasium.Env[Array, Array]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Array, dict[str, Any]]:
-        """The start of an episode, drawn anew; observation of shape (size,)."""
+        """The start of an episode, drawn again; observation of shape (size,)."""
         super().reset(seed=seed)
         observations, _ = self.envs.reset(seed=seed)
         return observations[0], {}

@@ -46,7 +46,7 @@ def plain(value):
 
 
 def alike(first, second):
-    """The same but for the seventh digit of floats."""
+    """The same to six digits, as floats have."""
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(alike(first[k], second[k]) for k in first)
     if isinstance(first, list) and isinstance(second, list):

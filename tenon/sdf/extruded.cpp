@@ -18,7 +18,7 @@ bool is_inside(const Vec2d& p, const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
 }
 
-/// Whether the corner `at` of what is left can be cut off: no other corner is in its triangle.
+/// Whether the corner `at` of the remaining ones can be cut off: no other one is in its triangle.
 bool is_ear(const std::vector<Vec2d>& corners, const std::vector<int>& left, std::size_t at) {
   const auto corner = [&](std::size_t i) {
     return corners[static_cast<std::size_t>(left[i % left.size()])];

@@ -3,7 +3,7 @@
 //
 // The pose graph: each node has a place relative to another one, and the world is the root. Chains
 // may be as long as there are nodes, so they are walked with a list. A model with a placement frame
-// is turned round: what is written is the place of that frame, so the place of the model is that
+// is turned round: its <pose> is the place of that frame, so the place of the model is that
 // times the inverse of the frame's place in the model. Nested models come first there, for a
 // placement frame may lie in one.
 #include <algorithm>

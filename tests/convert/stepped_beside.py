@@ -90,7 +90,7 @@ class Motion:
 
 
 def by_tenon(asset, folder):
-    """-> the motion and what the run said; bodies whose name is not theirs alone are left out."""
+    """-> the motion and what the run said; bodies that share a name are skipped."""
     log = folder / "run.npz"
     answer = tenon("sim", asset, "--engine", "mujoco", "--duration", SECONDS, "--fps", FRAMES,
                    "-o", log)

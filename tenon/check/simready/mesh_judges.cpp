@@ -324,10 +324,10 @@ void judge_vg_008(const Judged& judged, Report& report) {
     }
     const auto [first, is_new] = known.emplace(std::pair(*found->second, place), prim);
     if (!is_new) {
-      report.at(prim,
-                "the same mesh stands in the same place as " +
-                    named(first->second.path(), RelatedRole::Prim),
-                "keep one: the mesh that is drawn may collide as well");
+      report.at(
+          prim,
+          "the same mesh is at the same place as " + named(first->second.path(), RelatedRole::Prim),
+          "keep one: the mesh that is drawn may collide as well");
     }
   }
 }

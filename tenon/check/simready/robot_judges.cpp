@@ -74,7 +74,7 @@ void judge_rc_005(const Judged& judged, Report& report) {
       }
       for (const stage::SpecSite& site : prim.attribute(name).spec_stack()) {
         if (!is_physics_layer(site.layer->identifier())) {
-          report.at(prim, name, name.str() + " stands in " + name_of(*site.layer),
+          report.at(prim, name, name.str() + " is in " + name_of(*site.layer),
                     "author it in physics.usda");
           break;
         }
@@ -483,7 +483,7 @@ void judge_rv_011(const Judged& judged, Report& report) {
       const std::string found = foreign_to(prim, runtime);
       if (!found.empty()) {
         report.at(prim,
-                  found + " stands in the composition of " +
+                  found + " is in the composition of " +
                       (runtime.empty() ? std::string("no runtime") : runtime),
                   "move it into the payload of its own runtime");
       }
