@@ -10,6 +10,7 @@
 
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
+#include "tenon/math/mimic_law.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::check {
@@ -19,16 +20,6 @@ using scene::Joint;
 using scene::JointKind;
 
 constexpr double kFollowerSlack = 2e-2;  ///< [rad or m]
-
-double value_of(const scene::Mimic& mimic, double leader) {
-  double value = mimic.offset + mimic.multiplier * leader;
-  double power = leader;
-  for (const double coefficient : mimic.higher) {
-    power *= leader;
-    value += coefficient * power;
-  }
-  return value;
-}
 
 /// One coordinate that follows another.
 struct Follower {
@@ -75,8 +66,8 @@ void check_mimic_limits(const Subject& subject, Reporter& report) {
         own.locked()) {
       return;
     }
-    const double a = value_of(follower.mimic, leader.lower);
-    const double b = value_of(follower.mimic, leader.upper);
+    const double a = mimic_position(follower.mimic, leader.lower);
+    const double b = mimic_position(follower.mimic, leader.upper);
     const double low = std::fmin(a, b);
     const double high = std::fmax(a, b);
     if (low < own.lower - kFollowerSlack || high > own.upper + kFollowerSlack) {
@@ -94,7 +85,7 @@ void check_mimic_limits(const Subject& subject, Reporter& report) {
 
 void check_mimic_gear(const Subject& subject, Reporter& report) {
   each_follower(subject, [&](const Follower& follower) {
-    if (follower.mimic.multiplier == 0 && follower.mimic.higher == std::array<double, 3>{}) {
+    if (follower.mimic.multiplier == 0 && mimic_is_linear(follower.mimic)) {
       report.at(follower.prim,
                 follower.about_leader("the mimic's factor is 0: " + follower.name("the joint") +
                                       " is held still"),
@@ -146,7 +137,7 @@ void check_mimic_start(const Subject& subject, Reporter& report) {
       return;
     }
     const double wanted =
-        value_of(follower.mimic, start_coordinate(subject.scene, follower.leader));
+        mimic_position(follower.mimic, start_coordinate(subject.scene, follower.leader));
     const double start = start_coordinate(subject.scene, joint);
     const bool turns = joint.kind == JointKind::Revolute;
     const double gap = turns ? std::remainder(wanted - start, 6.2831853071795865) : wanted - start;

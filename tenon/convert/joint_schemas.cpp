@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "tenon/convert/prepare_joints.h"
+#include "tenon/math/mimic_law.h"
 
 namespace tenon::convert {
 
@@ -215,7 +216,7 @@ void JointPrinter::print_mimic(const robot::Joint& leader, Path leader_path,
   const double unit = position(1) / robot::JointPosition::from_si(1, leader.motion()).in_layer();
   const double multiplier = mimic.multiplier * unit;
   const double offset = position(mimic.offset);
-  const bool linear = mimic.higher == robot::Mimic{}.higher;
+  const bool linear = mimic_is_linear(mimic);
   if (const double start = start_of(joint_, &leader, start_); start != 0) {
     print_state(start);
   }

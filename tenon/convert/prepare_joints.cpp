@@ -10,6 +10,7 @@
 
 #include "tenon/base/file_finding.h"
 #include "tenon/base/text/rounded_text.h"
+#include "tenon/math/mimic_law.h"
 
 namespace tenon::convert {
 namespace {
@@ -47,10 +48,6 @@ void report_unknown_gains(const robot::RobotModel& model, const ConvertOptions& 
   }
 }
 
-bool is_linear(const std::optional<robot::Mimic>& mimic) {
-  return mimic && mimic->higher == robot::Mimic{}.higher;
-}
-
 /// Joints that follow a follower follow its leader instead: not every engine takes chains. There
 /// are no cycles (sanitize_model).
 void follow_leaders(robot::RobotModel& model) {
@@ -59,7 +56,8 @@ void follow_leaders(robot::RobotModel& model) {
   for (robot::Index start = 0; start < model.joints.size(); ++start) {
     for (robot::Index at = start; done[at] == 0; at = model.joints[at].mimic->leader) {
       done[at] = 1;
-      if (!is_linear(model.joints[at].mimic)) {
+      const std::optional<robot::Mimic>& mimic = model.joints[at].mimic;
+      if (!mimic || !mimic_is_linear(*mimic)) {
         break;
       }
       chain.push_back(at);
@@ -67,7 +65,7 @@ void follow_leaders(robot::RobotModel& model) {
     for (; !chain.empty(); chain.pop_back()) {
       robot::Mimic& mimic = *model.joints[chain.back()].mimic;
       const std::optional<robot::Mimic>& next = model.joints[mimic.leader].mimic;
-      if (is_linear(next)) {
+      if (next && mimic_is_linear(*next)) {
         mimic.offset += mimic.multiplier * next->offset;
         mimic.multiplier *= next->multiplier;
         mimic.leader = next->leader;
@@ -89,16 +87,6 @@ double inside_of(const robot::Limit& limit) {
   const double range = limit.upper - limit.lower;
   const double inside = std::isfinite(range) ? kInside * range : 0;
   return limit.lower > 0 ? limit.lower + inside : limit.upper - inside;
-}
-
-double value_of(const robot::Mimic& mimic, double leader) {
-  double value = mimic.offset + mimic.multiplier * leader;
-  double power = leader;
-  for (const double coefficient : mimic.higher) {
-    power *= leader;
-    value += coefficient * power;
-  }
-  return value;
 }
 
 void place_starts(const ConvertOptions& options, robot::RobotModel& model,
@@ -135,7 +123,7 @@ double start_of(const robot::Joint& joint, const robot::Joint* leader, StartPose
   }
   if (joint.mimic && leader != nullptr) {
     const double start = start_of(*leader, nullptr, pose);
-    return start == 0 ? 0 : value_of(*joint.mimic, start);
+    return start == 0 ? 0 : mimic_position(*joint.mimic, start);
   }
   return excludes(joint, 0) ? inside_of(*joint.limit) : 0;
 }

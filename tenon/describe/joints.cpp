@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "tenon/math/mimic_law.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::describe {
@@ -154,7 +155,7 @@ void add_mimic(SceneSource& source, const scene::Joint& described, const scene::
                                         ">: joints of several axes follow none");
     return;
   }
-  if (!leader || !joint.has_one_axis() || mimic.higher != std::array<double, 3>{}) {
+  if (!leader || !joint.has_one_axis() || !mimic_is_linear(mimic)) {
     source.left_out(described.path, "the joint follows another by a law that is not linear");
     return;
   }

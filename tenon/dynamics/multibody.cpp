@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tenon/dynamics/loop_closure.h"
+#include "tenon/math/mimic_law.h"
 #include "tenon/scene/start_coordinate.h"
 
 namespace tenon::dynamics {
@@ -29,16 +30,6 @@ std::optional<std::size_t> part_of(const JointDofs& dofs, scene::Dof dof) {
     }
   }
   return std::nullopt;
-}
-
-double value_of(const scene::Mimic& mimic, double leader) {
-  double value = mimic.offset + mimic.multiplier * leader;
-  double power = leader;
-  for (const double coefficient : mimic.higher) {
-    power *= leader;
-    value += coefficient * power;
-  }
-  return value;
 }
 
 }  // namespace
@@ -145,7 +136,8 @@ void Multibody::follow(Posture& posture) const {
     const auto own = part_of(dofs_[follower.joint], mimic.dof);
     const auto leader = part_of(dofs_[mimic.leader], mimic.leader_dof);
     if (own && leader) {
-      posture.joints[follower.joint][*own] = value_of(mimic, posture.joints[mimic.leader][*leader]);
+      posture.joints[follower.joint][*own] =
+          mimic_position(mimic, posture.joints[mimic.leader][*leader]);
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "tenon/math/mimic_law.h"
+
 namespace tenon::live {
 namespace {
 
@@ -15,17 +17,6 @@ std::optional<std::size_t> coordinate_of_dof(const scene::JointDofs& dofs, scene
     }
   }
   return std::nullopt;
-}
-
-/// A mimic's coordinate when its leader is at `x`: offset + multiplier x + ...
-double followed_position(const scene::Mimic& mimic, double x) {
-  double power = x;
-  double sum = mimic.offset + mimic.multiplier * x;
-  for (const double coefficient : mimic.higher) {
-    power *= x;
-    sum += coefficient * power;
-  }
-  return sum;
 }
 
 Result<void> place_at_rest(engines::World& world, scene::Index joint,
@@ -45,7 +36,7 @@ bool follow(LiveAsset& asset, scene::Index joint, scene::Index leader) {
     const auto other = coordinate_of_dof(asset.dofs[mimic.leader], mimic.leader_dof);
     const std::vector<double> led = asset.world->joint_state(mimic.leader).position;
     if (mimic.leader == leader && own && other && *own < position.size() && *other < led.size()) {
-      position[*own] = followed_position(mimic, led[*other]);
+      position[*own] = mimic_position(mimic, led[*other]);
       follows = true;
     }
   }

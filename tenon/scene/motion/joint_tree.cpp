@@ -10,6 +10,7 @@
 
 #include "tenon/base/containers/disjoint_sets.h"
 #include "tenon/math/inertia.h"
+#include "tenon/math/mimic_law.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::scene {
@@ -217,12 +218,7 @@ double JointTree::slope_of(const Mimic& mimic) const {
   for (std::size_t i = 0; i < dofs_[mimic.leader].free.size(); ++i) {
     at = dofs_[mimic.leader].free[i].dof == mimic.leader_dof ? all[i] : at;
   }
-  double slope = mimic.multiplier;
-  for (std::size_t i = 0; i < mimic.higher.size(); ++i) {
-    slope +=
-        static_cast<double>(i + 2) * mimic.higher[i] * std::pow(at, static_cast<double>(i + 1));
-  }
-  return slope;
+  return mimic_slope(mimic, at);
 }
 
 void JointTree::add_mimic(Index joint, const Mimic& mimic) {

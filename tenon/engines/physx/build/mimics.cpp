@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "tenon/engines/physx/build/tendons.h"
+#include "tenon/math/mimic_law.h"
 
 namespace tenon::engines::physx {
 namespace {
@@ -58,8 +59,7 @@ bool fits_a_tendon(const scene::Mimic& mimic, const JointMap& follower, const Jo
   const auto fits = [](const JointMap& map) {
     return map.role == JointRole::Reduced && !map.dofs.free.empty();
   };
-  return std::all_of(mimic.higher.begin(), mimic.higher.end(), [](double c) { return c == 0; }) &&
-         fits(follower) && fits(leader) && follower.tree == leader.tree;
+  return mimic_is_linear(mimic) && fits(follower) && fits(leader) && follower.tree == leader.tree;
 }
 
 void add_coupling(Build& build, Index index, const scene::Mimic& mimic) {

@@ -12,6 +12,7 @@
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/model.h"
 #include "tenon/engines/physx/run/read_state.h"
+#include "tenon/math/mimic_law.h"
 
 // NOLINTBEGIN(readability-identifier-naming): names of PhysX
 namespace tenon::engines::physx {
@@ -166,20 +167,11 @@ void Coupling::add(const Model& model, const Side& side, double factor) {
 void Coupling::update(const Model& model) {
   const double q = position(model, follower_);
   const double p = position(model, leader_);
-  double law = mimic_.offset + mimic_.multiplier * p;
-  double slope = mimic_.multiplier;
-  double power = p;  // p^(n - 1) of the n-th coefficient
-  for (std::size_t i = 0; i < mimic_.higher.size(); ++i) {
-    const auto n = static_cast<double>(i + 2);
-    slope += n * mimic_.higher[i] * power;
-    power *= p;
-    law += mimic_.higher[i] * power;
-  }
   row_.linear.fill(px::PxVec3(0));
   row_.angular.fill(px::PxVec3(0));
   add(model, follower_, 1);
-  add(model, leader_, -slope);
-  row_.error = to_px(q - law);
+  add(model, leader_, -mimic_slope(mimic_, p));
+  row_.error = to_px(q - mimic_position(mimic_, p));
   constraint_->markDirty();
 }
 
