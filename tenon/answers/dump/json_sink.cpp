@@ -106,31 +106,41 @@ void JsonTextSink::end(char bracket) {
 void JsonTextSink::key(std::string_view name) {
   before_item();
   append_quoted(name);
+  end_key();
+}
+
+void JsonTextSink::key_text(std::string_view quoted) {
+  before_item();
+  append(quoted);
+  end_key();
+}
+
+void JsonTextSink::end_key() {
   append(indent_ < 0 ? ":" : ": ");
   after_key_ = true;
 }
 
 void JsonTextSink::put(double value) {
   if (value == 0 && !std::signbit(value)) {
-    raw("0.0");
+    put_text("0.0");
     return;
   }
   std::array<char, 64> digits;
   // The library's own, so that a number has one form in all answers.
   const char* end = nlohmann::detail::to_chars(digits.data(), digits.data() + digits.size(), value);
-  raw({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  put_text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
 void JsonTextSink::put(std::int64_t value) {
   std::array<char, 24> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  raw({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  put_text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
 void JsonTextSink::put(std::uint64_t value) {
   std::array<char, 24> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  raw({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  put_text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
 void JsonTextSink::put(std::string_view text) {
@@ -153,11 +163,11 @@ void JsonTextSink::put(const Json& value) {
     }
     end_array();
   } else {
-    raw(on_one_line(value, only_ascii_));
+    put_text(on_one_line(value, only_ascii_));
   }
 }
 
-void JsonTextSink::raw(std::string_view text) {
+void JsonTextSink::put_text(std::string_view text) {
   before_item();
   append(text);
 }

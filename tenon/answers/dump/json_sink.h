@@ -55,8 +55,8 @@ class JsonTextSink {
   void end_object() { end('}'); }
   void end_array() { end(']'); }
   void key(std::string_view name);
-  void put(bool value) { raw(value ? "true" : "false"); }
-  void put(std::nullptr_t) { raw("null"); }
+  void put(bool value) { put_text(value ? "true" : "false"); }
+  void put(std::nullptr_t) { put_text("null"); }
   void put(double value);  ///< finite
   void put(std::int64_t value);
   void put(std::uint64_t value);
@@ -64,11 +64,14 @@ class JsonTextSink {
   void put(const char* text) { put(std::string_view(text)); }
   void put(const std::string& text) { put(std::string_view(text)); }
   void put(const Json& value);
+  /// Text that is JSON already, as it stands.
+  void put_text(std::string_view json);
+  void key_text(std::string_view quoted);
 
  private:
   void begin(char bracket);
   void end(char bracket);
-  void raw(std::string_view text);
+  void end_key();
   void append_quoted(std::string_view text);
   void before_item();
   void set_depth();

@@ -63,29 +63,10 @@ std::string json_number(double value) {
   return result.find('.') == std::string::npos ? result + ".0" : result;
 }
 
-void JsonWriter::begin(char bracket) {
-  before_item();
-  text_ += bracket;
-  has_items_.push_back(false);
-}
-
-void JsonWriter::end(char bracket) {
-  const bool items = has_items_.back();
-  has_items_.pop_back();
-  if (items) {
-    new_line();
-  }
-  text_ += bracket;
-}
-
-void JsonWriter::key(std::string_view name) {
-  before_item();
-  text_ += json_quoted(name);
-  text_ += ": ";
-  after_key_ = true;
-}
-
-void JsonWriter::string(std::string_view text) { raw(json_quoted(text)); }
+JsonWriter::JsonWriter(std::ostream& out)
+    : text_(1, false, [&out](std::string_view piece) {
+        out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+      }) {}
 
 void JsonWriter::number(double value) {
   if (std::isnan(value)) {
@@ -93,53 +74,19 @@ void JsonWriter::number(double value) {
   } else if (std::isinf(value)) {
     string(value > 0 ? "inf" : "-inf");
   } else {
-    raw(json_number(value));
+    text_.put_text(json_number(value));
   }
 }
 
 void JsonWriter::integer(std::int64_t value) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53;
   const std::string text = std::to_string(value);
-  value >= -kExact&& value <= kExact ? raw(text) : string(text);
+  value >= -kExact&& value <= kExact ? text_.put_text(text) : string(text);
 }
 
 void JsonWriter::unsigned_integer(std::uint64_t value) {
   const std::string text = std::to_string(value);
-  value <= (std::uint64_t{1} << 53) ? raw(text) : string(text);
-}
-
-void JsonWriter::raw(std::string_view text) {
-  before_item();
-  text_ += text;
-}
-
-void JsonWriter::before_item() {
-  if (after_key_) {
-    after_key_ = false;
-    return;
-  }
-  if (has_items_.empty()) {
-    return;
-  }
-  if (has_items_.back()) {
-    text_ += ',';
-  }
-  has_items_.back() = true;
-  new_line();
-}
-
-void JsonWriter::new_line() {
-  constexpr std::size_t kHeldBack = 1u << 16;  // bytes
-  if (text_.size() >= kHeldBack) {
-    flush();
-  }
-  text_ += '\n';
-  text_.append(has_items_.size(), ' ');
-}
-
-void JsonWriter::flush() {
-  out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-  text_.clear();
+  value <= (std::uint64_t{1} << 53) ? text_.put_text(text) : string(text);
 }
 
 }  // namespace tenon::answers
