@@ -43,24 +43,8 @@ Between between_samples(const std::vector<double>& times, double seconds) {
 }
 
 bool groups_allow(const CollisionFilter& filter, Index a, Index b) {
-  if (filter.group_paths.empty()) {
-    return true;
-  }
-  const std::vector<Index>& of_a = filter.groups_of_collider[a];
-  const std::vector<Index>& of_b = filter.groups_of_collider[b];
-  const auto touches_ungrouped = [&](const std::vector<Index>& groups) {
-    return std::none_of(groups.begin(), groups.end(),
-                        [&](Index g) { return filter.ungrouped_off[g] != 0; });
-  };
-  if (of_a.empty() || of_b.empty()) {
-    return touches_ungrouped(of_a) && touches_ungrouped(of_b);
-  }
-  // S-77: off when any pair of memberships is off.
-  return std::none_of(of_a.begin(), of_a.end(), [&](Index g) {
-    return std::any_of(of_b.begin(), of_b.end(), [&](Index h) {
-      return filter.group_pair_off[g * filter.group_paths.size() + h] != 0;
-    });
-  });
+  return filter.group_paths.empty() ||
+         filter.groups_allow(filter.groups_of_collider[a], filter.groups_of_collider[b]);
 }
 
 /// Nothing but filters keeps the two apart.
@@ -69,6 +53,19 @@ bool could_touch(const Collider& a, const Collider& b) {
 }
 
 }  // namespace
+
+bool CollisionFilter::groups_allow(const std::vector<Index>& a, const std::vector<Index>& b) const {
+  if (a.empty() || b.empty()) {
+    const auto touches_ungrouped = [&](Index group) { return ungrouped_off[group] == 0; };
+    return (a.empty() && b.empty()) ||
+           std::all_of((a.empty() ? b : a).begin(), (a.empty() ? b : a).end(), touches_ungrouped);
+  }
+  // S-77: off when any pair of memberships is off.
+  return std::none_of(a.begin(), a.end(), [&](Index g) {
+    return std::any_of(b.begin(), b.end(),
+                       [&](Index h) { return group_pair_off[g * group_paths.size() + h] != 0; });
+  });
+}
 
 std::string_view mass_source_name(MassSource source) { return name_of(source); }
 

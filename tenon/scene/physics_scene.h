@@ -323,6 +323,9 @@ struct CollisionFilter {
   SetPairs permanent_sets_off;
   /// What single joints keep apart: of those that may break or be switched.
   std::vector<JointPairs> joint_pairs;
+
+  /// Whether groups let colliders touch that are in these groups (S-77, S-78).
+  bool groups_allow(const std::vector<Index>& a, const std::vector<Index>& b) const;
 };
 
 /// A scalar that follows authored time samples during the simulation.

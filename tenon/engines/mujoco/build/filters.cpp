@@ -47,27 +47,9 @@ ClassKey key_of(const scene::PhysicsScene& scene, std::size_t collider) {
   return key;
 }
 
-bool groups_off(const scene::CollisionFilter& filter, const std::vector<Index>& a,
-                const std::vector<Index>& b) {
-  const std::size_t count = filter.group_paths.size();
-  if (a.empty() != b.empty()) {
-    const std::vector<Index>& grouped = a.empty() ? b : a;
-    return std::any_of(grouped.begin(), grouped.end(),
-                       [&](Index group) { return filter.ungrouped_off[group] != 0; });
-  }
-  for (const Index g : a) {
-    for (const Index h : b) {
-      if (filter.group_pair_off[g * count + h] != 0) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 bool classes_off(const scene::CollisionFilter& filter, const ClassKey& a, const ClassKey& b) {
   return (!a.moves && !b.moves) || !a.exerts || !b.exerts || a.scene != b.scene ||
-         groups_off(filter, a.groups, b.groups);
+         !filter.groups_allow(a.groups, b.groups);
 }
 
 struct Classes {
