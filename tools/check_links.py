@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """Every link of a Markdown file of the project leads somewhere: to a file, a folder, or a heading
-of a file; and every page of docs/ is reached by links from README.md.
+of a file; every page of docs/ is reached by links from README.md; and files of the project that a
+page or a comment cites by their path exist.
 
 Usage: check_links.py [ROOT]. Exit 0: so it is; 1: a line for each link that leads nowhere.
 """
@@ -18,6 +19,10 @@ FENCE = re.compile(r"^(```|~~~).*?^\1", re.M | re.S)
 CODE = re.compile(r"`[^`\n]*`")
 LINK = re.compile(r"!?\[[^\]\n]*(?:\n[^\]\n]*)?\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ +(.*?) *#*$", re.M)
+COMMENT = re.compile(r"(?://|#(?!include))(.*)")
+CITED = re.compile(r"(?<![\w/.:$<>{*~-])((?:[\w-]+/)+[\w-]+\.(?:h|cpp|py|md|def|ts|cmake|sh|txt))\b"
+                   r"(?![\w/*({])")
+CODE_FILES = (".h", ".cpp", ".def", ".ts", ".py", ".cmake", ".sh", ".txt")
 ELSEWHERE = re.compile(r"[a-z]+:|#$")
 
 
@@ -37,6 +42,25 @@ def links_of(text):
     """-> [(line, target)]"""
     text = plain(text)
     return [(text.count("\n", 0, found.start()) + 1, found[1]) for found in LINK.finditer(text)]
+
+
+def cited_faults(root, paths):
+    """Paths from the project's root or from tenon/ of which there is no file."""
+    folders = {path.partition("/")[0] for path in paths if "/" in path}
+    inside = {path.split("/")[1] for path in paths if path.startswith("tenon/")}
+    known = set(paths) | {path.removeprefix("tenon/") for path in paths}
+    for path in paths:
+        is_page = path.endswith(".md")
+        if not is_page and not path.endswith(CODE_FILES) or path == "tools/checks_test.py":
+            continue
+        with open(os.path.join(root, path), encoding="utf-8") as file:
+            for line, text in enumerate(file, 1):
+                comment = COMMENT.search(text)
+                said = text if is_page else comment[1] if comment else ""
+                for name in CITED.findall(said):
+                    first = name.partition("/")[0]
+                    if name not in known and (first in folders or first in inside):
+                        yield f"{path}:{line}: there is no {name}"
 
 
 class Pages:
@@ -87,8 +111,9 @@ def faults(root, paths):
 
 def main():
     root = sys.argv[1] if len(sys.argv) > 1 else source_files.ROOT
-    paths = [path for path in source_files.project_files(root) if path.endswith(".md")]
-    found = list(faults(root, paths))
+    files = list(source_files.project_files(root))
+    paths = [path for path in files if path.endswith(".md")]
+    found = [*faults(root, paths), *cited_faults(root, files)]
     for fault in found:
         print(fault)
     print(f"{len(paths)} pages, {len(found)} faults of links")

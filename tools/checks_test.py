@@ -344,6 +344,15 @@ class Links(unittest.TestCase):
                      "![x](gone.svg)"):
             self.assertEqual(len(self.faults(text)), 1, text)
 
+    def test_files_that_comments_cite(self):
+        for text, count in (("// see base/a.h\n", 0), ("// see tenon/base/a.h\n", 0),
+                            ("// see base/b.h and docs/b.md\n", 2), ('#include "base/b.h"\n', 0),
+                            ("// include/mujoco/mujoco.h\n", 0), ("int b;  // base/b.h\n", 1)):
+            files = {"tenon/base/a.h": text, "docs/a.md": "`tenon/base/a.h`\n"}
+            with tree(files) as root:
+                found = list(check_links.cited_faults(root, list(files)))
+                self.assertEqual(len(found), count, text)
+
     def test_a_page_that_nothing_leads_to(self):
         self.assertEqual(len(self.faults("", **{"docs/lonely.md": "[a](a.md)"})), 1)
 

@@ -87,7 +87,7 @@ class GlbMaterials {
 /// moves.
 GltfJson motion_of_bodies(const bake::PoseRecording& motion, int first_node, GlbBuffer& buffer);
 
-/// {"version", "up", "bodies", "joints", ...}: see docs/glb.md.
+/// {"version", "up", "bodies", "joints", ...}: see page/src/scene/info.ts.
 GltfJson scene_extras(const view::ViewScene& view);
 
 GltfJson numbers_of(const Vec3d& v);

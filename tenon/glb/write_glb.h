@@ -25,7 +25,7 @@ struct GlbOptions {
 /// One scene. Its root turns the world to glTF's Y-up; below it a node for each body of the view,
 /// in order, then one for what stands still ("world"), below each what is drawn of it. Every node's
 /// `extras` has {"kind": "body", "world", "visual" or "collider", "path", "index"}; those of the
-/// scene have {"tenon": {...}}, what docs/glb.md lists: bodies, joints, colliders, articulations.
+/// scene have {"tenon": {...}}, what page/src/scene/info.ts lists: bodies, joints, colliders, ...
 /// Errors: Limit where the file would be larger than glTF's 4 GiB; Invalid for a motion of other
 /// bodies; Missing without meshoptimizer where `compressed`.
 Result<std::string> write_glb(const view::ViewScene& view, const GlbOptions& options);
