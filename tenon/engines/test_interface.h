@@ -146,6 +146,26 @@ TYPED_TEST(EngineInterface, AMassThatIsSetTakesItsInertiaAlong) {
   EXPECT_NEAR(world.body_state(0).angular_velocity[2], 0.1 * 1 / 2, this->within(1e-12));
 }
 
+TYPED_TEST(EngineInterface, ADriveWhoseGainsAreSetToZeroLetsGo) {
+  for (const bool in_tree : {false, true}) {
+    this->scene.joints.clear();
+    scene::Joint& slide =
+        this->scene.add_joint("slide", scene::JointKind::Prismatic, {}, 0, scene::Axis::X);
+    slide.frame0.position = {{0, 0, 5}};
+    slide.drives.push_back(drive(scene::Dof::TransX, 1e3, 1e2));
+    if (in_tree) {
+      slide.articulation = 0;
+      this->scene.articulations.push_back({named("a"), slide.path, true, {0}, {0}, {}, true, {}});
+    }
+    World world = this->make();
+    ASSERT_TRUE(world.set_parameter({Parameter::DriveStiffness, 0, 0}, 0).has_value());
+    ASSERT_TRUE(world.set_parameter({Parameter::DriveDamping, 0, 0}, 0).has_value());
+    ASSERT_TRUE(world.set_body_wrench(0, {{{4, 0, 0}}, {}}).has_value());
+    this->run(world, 10);
+    EXPECT_NEAR(world.body_state(0).linear_velocity[0], 0.1 * 4 / 2, this->within(1e-9)) << in_tree;
+  }
+}
+
 TYPED_TEST(EngineInterface, AKinematicBodyReachesItsPoseInOneStepAndStays) {
   World world = this->make();
   this->run(world, 2);

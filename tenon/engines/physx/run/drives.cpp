@@ -10,6 +10,7 @@
 #include "tenon/engines/physx/run/drives.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/slots.h"
@@ -68,6 +69,11 @@ void write_constraint(const Joint& joint, const JointMap& map, double time_step)
   px::PxTransform target(px::PxIdentity);
   px::PxVec3 linear(0);
   px::PxVec3 angular(0);
+  std::array<bool, px::PxD6Drive::eCOUNT> written{};
+  const auto write = [&](px::PxD6Drive::Enum which, const px::PxD6JointDrive& drive) {
+    map.d6->setDrive(which, drive);
+    written[which] = true;
+  };
   for (const Dof dof : kSlotDofs) {
     const AxisLaw asked = is_locked(joint, dof) ? AxisLaw{} : law_of(joint, dof);
     if (!asked.acts()) {
@@ -78,16 +84,23 @@ void write_constraint(const Joint& joint, const JointMap& map, double time_step)
     const px::PxD6JointDrive drive(to_px(law.stiffness), to_px(law.damping), to_px(law.max_force),
                                    law.acceleration);
     if (!is_angular(dof)) {
-      map.d6->setDrive(static_cast<px::PxD6Drive::Enum>(slot.number), drive);
+      write(static_cast<px::PxD6Drive::Enum>(slot.number), drive);
       target.p[slot.number] = to_px(law.target_position);
       linear[slot.number] = to_px(law.target_velocity);
       continue;
     }
-    map.d6->setDrive(slot.number == 0 ? px::PxD6Drive::eTWIST : px::PxD6Drive::eSWING, drive);
+    write(slot.number == 0 ? px::PxD6Drive::eTWIST : px::PxD6Drive::eSWING, drive);
     px::PxVec3 axis(0);
     axis[slot.number] = 1;
     target.q = target.q * px::PxQuat(to_px(law.target_position), axis);
     angular[slot.number] = -to_px(law.target_velocity);
+  }
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const auto which = static_cast<px::PxD6Drive::Enum>(i);
+    const px::PxD6JointDrive before = map.d6->getDrive(which);
+    if (!written[i] && (before.stiffness != 0 || before.damping != 0)) {
+      map.d6->setDrive(which, px::PxD6JointDrive());  // gains that were set to 0
+    }
   }
   map.d6->setDrivePosition(target);
   map.d6->setDriveVelocity(linear, angular);
