@@ -41,6 +41,14 @@ VALUES = {
     "pxr": "n = sum(1 for prim in stage.Traverse() for name in prim.GetAuthoredPropertyNames()\n"
            "        if not prim.GetAttribute(name) or prim.GetAttribute(name).Get() is not None)",
 }
+# One value of every prim, each read back before the next is set.
+EDIT = {
+    "tenon": "prims = list(stage['/World'].children)\nfor prim in prims:\n"
+             "    prim['size'] = 7.0\n    assert prim['size'] == 7.0",
+    "pxr": "prims = stage.GetPrimAtPath('/World').GetChildren()\nfor prim in prims:\n"
+           "    prim.GetAttribute('size').Set(7.0)\n"
+           "    assert prim.GetAttribute('size').Get() == 7.0",
+}
 STEPS = """
 import os, time
 import tenon_usd
@@ -166,6 +174,12 @@ def reading_rows(path, rounds, what):
            rounds)
 
 
+def editing_row(path, rounds, edits):
+    ours, theirs = ["\n".join((IMPORT[lib] + NUMPY, OPEN[lib].format(path=path),
+                               TIMED.format(work=EDIT[lib]))) for lib in ("tenon", "pxr")]
+    beside(f"{edits} values set one by one", ours, theirs, rounds)
+
+
 def program_rate(envs, steps, time_step):
     done = subprocess.run(
         [os.path.join(WHEEL, "clean/bin/tenon"), "bench", HAND, "--physics", "physics", "--envs",
@@ -221,11 +235,13 @@ def main():
         print("skipped: no package (python/tests/install.sh)")
         return 77
     rounds, prims, steps = (1, 100, 20) if options.smoke else (options.rounds, 20000, 1000)
+    edits = 100 if options.smoke else 6400
     print(f"{'':52} {'package':>10} {'other':>10} {'':12} {'ratio':>7}")
     beside("import", TIMED.format(work=IMPORT["tenon"]), TIMED.format(work=IMPORT["pxr"]), rounds)
     reading_rows(HAND, rounds, "the hand")
     with tempfile.TemporaryDirectory() as folder:
         reading_rows(many_prims(folder, prims), rounds, f"{prims} prims")
+        editing_row(many_prims(folder, edits), rounds, edits)
     stepping_rows(64, steps, rounds)
     learning_row(64, max(1, steps // 10), rounds)
     return 0

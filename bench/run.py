@@ -295,6 +295,9 @@ def workloads(bench):
         for name, file in robots.items():
             yield Workload(f"{kind}_{name}", [program("read_physics"), file], ["physics", file],
                            [("physics", "physics", "")])
+    edits = "200" if bench.arguments.smoke else "6400"
+    yield Workload("edit_stage", [program("edit_stage"), edits], ["edit", edits],
+                   [(phase, phase, "*") for phase in ("define", "set", "apply", "set_again")])
     triangles = "2000" if bench.arguments.smoke else "1000000"
     yield Workload("mesh_mass", [program("mesh_mass"), triangles], None,
                    [(phase, phase, "") for phase in ("copy", "closed", "integrals")])

@@ -8,7 +8,8 @@ Usage: usd_core.py WORK FILE [--repeats N] [--dump-script FILE]
        usd_core.py export FROM TO     opens FROM as a stage and writes it flattened
        usd_core.py tree FILE          prints the names of all prims
 
-WORK: one_layer | compose | count_prims | suite | robots | asset | flatten | first_value | physics.
+WORK: one_layer | compose | count_prims | suite | robots | asset | flatten | first_value | physics |
+edit, whose FILE is a number of prims.
 Imports are not timed. The phases parse, compose, open, flatten, export and physics run in OpenUSD's
 C++; traverse, transforms, read_attributes and dump also measure Python.
 """
@@ -141,6 +142,32 @@ def first_value(report, file, _):
     report.counts["points"], report.counts["first"] = len(points), float(points[0][2])
 
 
+def edit_prims(prims, edit, shows):
+    shown = 0
+    for path in prims:
+        edit(path)
+        shown += shows(path)
+    return shown
+
+
+def edit(report, file, _):
+    stage = Usd.Stage.CreateInMemory()
+    prims = [f"/World/g{i // 100}/p{i}" for i in range(int(os.path.basename(file)))]
+    prim = stage.GetPrimAtPath
+
+    def phase(name, change, shows):
+        report.counts[name] = report.time(name, lambda: edit_prims(prims, change, shows))
+
+    phase("define", lambda path: stage.DefinePrim(path, "Cube"),
+          lambda path: prim(path).GetTypeName() == "Cube")
+    phase("set", lambda path: prim(path).GetAttribute("size").Set(3.0),
+          lambda path: prim(path).GetAttribute("size").Get() == 3.0)
+    phase("apply", lambda path: prim(path).ApplyAPI(UsdPhysics.MassAPI),
+          lambda path: prim(path).HasAPI(UsdPhysics.MassAPI))
+    phase("set_again", lambda path: prim(path).GetAttribute("physics:mass").Set(2.0),
+          lambda path: prim(path).GetAttribute("physics:mass").Get() == 2.0)
+
+
 def physics(report, file, _):
     stage = report.time("open", lambda: Usd.Stage.Open(file))
     with warnings.catch_warnings():
@@ -153,7 +180,7 @@ def physics(report, file, _):
 
 
 WORKS = {work.__name__: work for work in (one_layer, compose, count_prims, suite, robots, asset,
-                                          flatten, first_value, physics)}
+                                          flatten, first_value, physics, edit)}
 
 
 def dumper_of(script):

@@ -61,24 +61,23 @@ Result<AssetEditor*> OpenedStage::editor() {
 }
 
 Result<void> OpenedStage::look_again() {
-  TENON_TRY(const auto views, editor_->views());
+  TENON_TRY(const auto views, editor_->working_views());
   if (!views.empty()) {
     stage_ = views.front().stage;
   }
   return {};
 }
 
-/// Adds to places_ and steps_. The editor keeps no step of edits that change nothing; the scene is
-/// another one exactly where it keeps one.
+/// Adds to places_ and steps_. The editor keeps no step of edits that change nothing.
 Result<void> OpenedStage::edit_now(const std::vector<AssetEdit>& edits, Diagnostics& diagnostics) {
   TENON_TRY(AssetEditor * asset, editor());
-  const std::shared_ptr<const stage::Stage> before = stage_;
+  const std::size_t before = asset->step_count();
   auto places = asset->edit(edits, diagnostics);
   TENON_CHECK(look_again());  // also where the edits were taken back
   if (!places) {
     return places.error();
   }
-  steps_ += stage_ == before ? 0 : 1;
+  steps_ += asset->step_count() - before;
   places_.insert(places_.end(), places->begin(), places->end());
   return {};
 }

@@ -10,11 +10,13 @@
 // back.
 //
 // Composing takes most of the time, so that edits wait for their proof as long as none depends on
-// another. The value of a property, and the list of schemas of a prim, come from the specs at the
-// sites of the prim and from nothing else: an edit has to wait for the proof of those before it
-// when one of them has written to a spec at its sites, or when it writes to a spec at theirs. An
-// edit that fails is tried again after the proof, because an earlier one may have made what it
-// lacks. The work of all compositions of a call is bounded by one account.
+// another. Where prims are composed as before, the scenes follow the edits and composing costs
+// nothing (edit::StageEditor::working_stage). The value of a property, and the list of schemas of a
+// prim, come from the specs at the sites of the prim and from nothing else: an edit has to wait for
+// the proof of those before it when one of them has written to a spec at its sites, or when it
+// writes to a spec at theirs. An edit that fails is tried again after the proof, because an earlier
+// one may have made what it lacks. The work of all compositions of a call is bounded by one
+// account.
 #include "tenon/asset/edit_asset.h"
 
 #include <algorithm>
@@ -99,13 +101,27 @@ class AssetEditor::State {
     return done ? Result<std::vector<EditedPlace>>(std::move(places)) : done.error();
   }
 
-  Result<std::vector<View>> views() {
+  Result<std::vector<View>> working_views() {
     TENON_CHECK(settle());
     std::vector<View> views;
     for (const Selection& selection : selections_) {
       views.push_back({selection.shown, selection.stage});
     }
     return views;
+  }
+
+  /// What the scenes show now is to stay: later edits compose others.
+  Result<void> keep_stages() {
+    TENON_CHECK(settle());
+    for (Selection& selection : selections_) {
+      TENON_CHECK(selection.editor.stage());
+    }
+    return {};
+  }
+
+  Result<std::vector<View>> views() {
+    TENON_CHECK(keep_stages());
+    return working_views();
   }
 
   edit::StageEditor& history() { return selections_.front().editor; }
@@ -233,7 +249,7 @@ class AssetEditor::State {
   }
 
   Result<void> compose(Selection& selection) {
-    TENON_TRY(const StagePtr stage, selection.editor.stage());
+    TENON_TRY(const StagePtr stage, selection.editor.working_stage());
     if (stage != selection.stage) {
       selection.stage = stage;
       TENON_CHECK(work_.spend(*stage));
@@ -269,7 +285,7 @@ class AssetEditor::State {
   Result<void> edit_one(std::size_t number, const AssetEdit& edit) {
     TENON_CHECK(check_object(edit));
     if (edit.is_about_specs()) {
-      TENON_CHECK(settle());
+      TENON_CHECK(keep_stages());  // what is to change is looked up in them on the way
       TENON_CHECK(edit_specs(number, edit));
       return settle();
     }
@@ -566,7 +582,13 @@ bool AssetEditor::redo() { return state_->history().redo(); }
 
 Result<std::vector<EditedFile>> AssetEditor::files() const { return state_->files(); }
 
+std::size_t AssetEditor::step_count() const { return state_->history().step_count(); }
+
 Result<std::vector<AssetEditor::View>> AssetEditor::views() { return state_->views(); }
+
+Result<std::vector<AssetEditor::View>> AssetEditor::working_views() {
+  return state_->working_views();
+}
 
 layer::LayerPtr AssetEditor::layer(const std::string& identifier) const {
   return state_->layer(identifier);

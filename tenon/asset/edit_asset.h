@@ -143,6 +143,8 @@ class AssetEditor {
                                         Diagnostics& diagnostics);
   bool undo();  ///< false when there is nothing to take back
   bool redo();
+  /// How often undo() would find something. Edits that change nothing are no steps.
+  std::size_t step_count() const;
 
   /// What all edits in force make of the files, those that differ alone, sorted by path.
   Result<std::vector<EditedFile>> files() const;
@@ -151,8 +153,11 @@ class AssetEditor {
     std::string variant;  ///< empty: there is no such set
     std::shared_ptr<const stage::Stage> stage;
   };
-  /// As the asset opens, then under the other selections.
+  /// As the asset opens, then under the other selections. The stages stay as they are.
   Result<std::vector<View>> views();
+  /// The same for who looks after each of many edits: the stages change with the edits to come, and
+  /// what was looked up in them holds until the next one.
+  Result<std::vector<View>> working_views();
   /// A layer as it is now; null when the asset has none of that identifier.
   layer::LayerPtr layer(const std::string& identifier) const;
 

@@ -139,6 +139,47 @@ TEST_F(AssetEdits, SchemasThatComeAndGoLeaveTheFileAsItWas) {
   EXPECT_EQ(only_text(editor).find("delete apiSchemas"), std::string::npos);
 }
 
+TEST_F(AssetEdits, ScenesFollowEditsOfAllVariantsUnlessTheyAreToStay) {
+  write("part.usda",
+        "(\n    defaultPrim = \"P\"\n)\ndef \"P\" {\n    def Cube \"X\" {\n    }\n}\n");
+  const std::string both = "prepend references = @./part.usda@\n";
+  AssetEditor editor = open(
+      write("a.usda",
+            "(\n    defaultPrim = \"A\"\n)\ndef \"A\" (\n    prepend variantSets = \"Physics\"\n"
+            "    variants = {\n        string Physics = \"one\"\n    }\n) {\n"
+            "    variantSet \"Physics\" = {\n        \"one\" (" +
+                both +
+                ") {\n        }\n"
+                "        \"two\" (" +
+                both + ") {\n        }\n    }\n}\n"));
+  const auto sizes = [](const std::vector<AssetEditor::View>& views) {
+    std::vector<double> all;
+    for (const AssetEditor::View& view : views) {
+      all.push_back(
+          view.stage->prim(Path::from("/A/X")).attribute("size").get_as<double>().value_or(0));
+    }
+    return all;
+  };
+  const auto working = *editor.working_views();
+  ASSERT_EQ(working.size(), 2u);
+  AssetEdit edit = set("/A/X.size", "4");
+  edit.layer = "part.usda";
+  ASSERT_TRUE(editor.edit({edit}, diagnostics_));
+  AssetEdit api = about_api(AssetEdit::Kind::ApplyApi, "/A/X", "PhysicsMassAPI");
+  api.layer = "part.usda";
+  ASSERT_TRUE(editor.edit({api}, diagnostics_));
+  EXPECT_EQ(sizes(working), (std::vector{4.0, 4.0}));
+  const auto kept = *editor.views();
+  EXPECT_EQ(kept.front().stage, working.front().stage);
+  edit.value = "5";
+  ASSERT_TRUE(editor.edit({edit}, diagnostics_));
+  EXPECT_EQ(sizes(kept), (std::vector{4.0, 4.0}));
+  EXPECT_EQ(sizes(*editor.working_views()), (std::vector{5.0, 5.0}));
+  EXPECT_EQ(editor.step_count(), 3u);
+  ASSERT_TRUE(editor.edit({edit}, diagnostics_));  // changes nothing
+  EXPECT_EQ(editor.step_count(), 3u);
+}
+
 // Two instances share one prototype, which is made of the first: an edit below the second one has
 // to find the names of the shared file all the same.
 TEST_F(AssetEdits, TargetsBelowAnyInstanceAreNamedAsItsFileDoes) {

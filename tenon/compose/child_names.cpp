@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of children and properties: from weak to strong, each layer adds its names and reorders all
 // that are there so far. Relocates rename, remove and add children on the way.
+#include "tenon/compose/child_names.h"
+
 #include <algorithm>
 #include <map>
 #include <set>

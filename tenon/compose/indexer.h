@@ -11,6 +11,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/compose/cache/index_cache.h"
+#include "tenon/compose/child_names.h"
 #include "tenon/compose/node_graph.h"
 #include "tenon/compose/work/task_queue.h"
 
@@ -174,7 +175,7 @@ void eval_implied_relocates(Indexer& indexer, NodeId node);
 /// The index is of a prim that was relocated away: nothing may contribute to it.
 bool elide_if_prohibited(Indexer& indexer);
 
-// Instancing, culling and names.
+// Instancing and culling.
 /// Instances have the node in common.
 bool is_shareable(const Node& node);
 bool is_instanceable(const NodeGraph& graph);
@@ -182,7 +183,5 @@ bool is_instanceable(const NodeGraph& graph);
 void disable_unshared_nodes(NodeGraph& graph);
 std::string instance_key(const NodeGraph& graph, bool has_payloads);
 void cull_without_opinions(NodeGraph& graph);
-void compose_child_names(PrimIndex& index);
-void compose_property_names(PrimIndex& index);
 
 }  // namespace tenon::compose

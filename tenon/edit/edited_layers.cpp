@@ -1,70 +1,46 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A layer is copied before its first edit, and again before an edit when somebody else holds the
-// copy, so that what was handed out stays as it was. Otherwise the copy changes where it is. Prim
-// indices point to prim specs of layers: they hold until a spec of a prim, a variant or the root
-// comes, goes or changes in more than its list of properties, or until a copy takes the place of
-// another layer. `composition_` counts these events, `revision_` all changes.
+// Scenes are composed of copies, which edits change where they are: an edit costs what it changes,
+// not what there is. A layer is copied again before an edit when somebody else holds the copy or
+// keeps scenes of it, so that what was handed out stays as it was. Prim indices point to prim specs
+// of layers: they hold until a spec of a prim, a variant or the root comes, goes or changes in more
+// than what stage::SpecFollower follows, or until a copy takes the place of another layer.
+// `composition_` counts these events, `revision_` all changes.
 #include "tenon/edit/edited_layers.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "tenon/edit/composed_change.h"
 #include "tenon/edit/layer_editor.h"
-#include "tenon/layer/fields.h"
 
 namespace tenon::edit {
-namespace {
-
-/// All fields but the list of properties are equal.
-bool composes_alike(const layer::Spec& a, const layer::Spec& b) {
-  const auto covers = [](const layer::Spec& one, const layer::Spec& other) {
-    return std::all_of(one.fields().begin(), one.fields().end(), [&](const layer::Field& field) {
-      const layer::Value* value = other.find(field.name);
-      return field.name == layer::fields::properties || (value != nullptr && *value == field.value);
-    });
-  };
-  return a.kind == b.kind && covers(a, b) && covers(b, a);
-}
-
-bool is_in_property(Path path) {
-  while (!path.empty() && !path.is_property() && !path.is_prim_or_variant()) {
-    path = path.parent();
-  }
-  return path.is_property();
-}
-
-bool changes_composition(const LayerChange& change) {
-  return std::any_of(change.specs.begin(), change.specs.end(), [](const SpecChange& spec) {
-    return !is_in_property(spec.path) &&
-           !(spec.before && spec.after && composes_alike(*spec.before, *spec.after));
-  });
-}
-
-compose::LayerOpener opener_of(std::map<std::string, layer::LayerPtr> known,
-                               compose::LayerOpener inner) {
-  return [inner = std::move(inner), known = std::move(known)](
-             const std::string& asset_path, const layer::Layer& anchor) -> Result<layer::LayerPtr> {
-    if (const auto named = known.find(asset_path); named != known.end()) {
-      return named->second;
-    }
-    TENON_TRY(const layer::LayerPtr opened, inner(asset_path, anchor));
-    const auto edited = known.find(opened->identifier());
-    return edited == known.end() ? opened : edited->second;
-  };
-}
-
-/// A pointer that does not keep the layer.
-layer::LayerPtr lent_pointer(const layer::Layer& layer) { return {layer::LayerPtr(), &layer}; }
-
-}  // namespace
 
 // Layers
 
-layer::LayerPtr EditedLayers::current(const layer::LayerPtr& original) const {
-  const layer::LayerPtr copy = original == nullptr ? nullptr : find(original->identifier());
-  return copy == nullptr ? original : copy;
+/// Puts a layer into the place of the copy.
+void EditedLayers::place(Copy& copy, layer::Layer layer) {
+  copy.layer = std::make_shared<layer::Layer>(std::move(layer));
+  copy.shown = {copy.layer.get(), [keeps = copy.layer](const layer::Layer*) {}};
+  copy.kept = false;
+}
+
+layer::LayerPtr EditedLayers::shown(const layer::LayerPtr& original) {
+  if (original == nullptr) {
+    return nullptr;
+  }
+  const auto [copy, made] = copies_.try_emplace(original->identifier());
+  if (made) {
+    copy->second.original = original;
+    place(copy->second, *original);
+  }
+  return copy->second.shown;
+}
+
+layer::LayerPtr EditedLayers::shown_if_copied(const layer::LayerPtr& original) const {
+  const auto copy = original == nullptr ? copies_.end() : copies_.find(original->identifier());
+  return copy == copies_.end() ? original : copy->second.shown;
 }
 
 layer::LayerPtr EditedLayers::find(const std::string& identifier) const {
@@ -72,57 +48,89 @@ layer::LayerPtr EditedLayers::find(const std::string& identifier) const {
   return copy == copies_.end() ? nullptr : copy->second.layer;
 }
 
-compose::LayerOpener EditedLayers::opener(compose::LayerOpener inner) const {
-  std::map<std::string, layer::LayerPtr> known;
-  for (const auto& [identifier, copy] : copies_) {
-    known.emplace(identifier, copy.layer);
-  }
-  return opener_of(std::move(known), std::move(inner));
+bool EditedLayers::is_edited(const std::string& identifier) const {
+  const auto copy = copies_.find(identifier);
+  return copy != copies_.end() && copy->second.edited;
 }
 
-layer::LayerPtr EditedLayers::lent(const layer::LayerPtr& original) const {
-  const layer::LayerPtr copy = original == nullptr ? nullptr : find(original->identifier());
-  return copy == nullptr ? original : lent_pointer(*copy);
+compose::LayerOpener EditedLayers::opener(const std::shared_ptr<EditedLayers>& layers,
+                                          compose::LayerOpener inner) {
+  // A scene may open a layer much later, for value clips: it then gets none that was edited since.
+  auto known = std::make_shared<std::map<std::string, layer::LayerPtr>>();
+  for (const auto& [identifier, copy] : layers->copies_) {
+    known->emplace(identifier, copy.shown);
+  }
+  return [layers, inner = std::move(inner), known](
+             const std::string& asset_path, const layer::Layer& anchor) -> Result<layer::LayerPtr> {
+    if (const auto named = known->find(asset_path); named != known->end()) {
+      return named->second;
+    }
+    TENON_TRY(const layer::LayerPtr opened, inner(asset_path, anchor));
+    const auto [at, first] = known->try_emplace(opened->identifier(), opened);
+    if (first) {
+      at->second = layers->is_edited(opened->identifier())
+                       ? layers->copies_.at(opened->identifier()).original
+                       : layers->shown(opened);
+    }
+    return at->second;
+  };
 }
 
-compose::LayerOpener EditedLayers::lending_opener(compose::LayerOpener inner) const {
-  std::map<std::string, layer::LayerPtr> known;
-  for (const auto& [identifier, copy] : copies_) {
-    known.emplace(identifier, lent_pointer(*copy.layer));
+void EditedLayers::keep() {
+  for (auto& [identifier, copy] : copies_) {
+    copy.kept = true;
   }
-  return opener_of(std::move(known), std::move(inner));
 }
 
 void EditedLayers::add(layer::Layer layer) {
-  const std::string identifier = layer.identifier();
-  auto added = std::make_shared<layer::Layer>(std::move(layer));
-  copies_.insert_or_assign(identifier, Copy{added, std::make_shared<layer::Layer>(*added)});
+  Copy copy;
+  copy.edited = true;
+  copy.original = std::make_shared<layer::Layer>(layer);
+  place(copy, std::move(layer));
   ++revision_;
-  ++composition_;
+  added_ = ++composition_;
+  copies_.insert_or_assign(copy.original->identifier(), std::move(copy));
 }
 
 void EditedLayers::copy(const layer::LayerPtr& original) {
   if (find(original->identifier()) == nullptr) {
-    copies_.emplace(original->identifier(),
-                    Copy{std::make_shared<layer::Layer>(*original), original});
-    ++composition_;
+    shown(original);
+    note_place(original->identifier());
   }
 }
 
 /// The copy, which nobody else holds; there must be one.
 layer::Layer& EditedLayers::writable(const std::string& identifier) {
+  constexpr long kOwners = 2;  // of a copy: itself, and what is shown of it
   Copy& copy = copies_.at(identifier);
-  if (copy.layer.use_count() > 1) {
-    copy.layer = std::make_shared<layer::Layer>(*copy.layer);
-    ++composition_;
+  if (copy.kept || copy.layer.use_count() > kOwners) {
+    place(copy, *copy.layer);
+    note_place(identifier);
   }
+  copy.edited = true;
   return *copy.layer;
+}
+
+void EditedLayers::note_place(const std::string& identifier) {
+  copies_.at(identifier).placed = ++composition_;
+}
+
+bool EditedLayers::are_in_place_since(std::size_t composition,
+                                      const std::vector<layer::LayerPtr>& layers) const {
+  return added_ <= composition &&
+         std::all_of(layers.begin(), layers.end(), [&](const layer::LayerPtr& layer) {
+           const auto copy = copies_.find(layer->identifier());
+           return copy == copies_.end() || copy->second.placed <= composition;
+         });
 }
 
 std::vector<LayerChange> EditedLayers::changes() const {
   std::vector<LayerChange> all;
   for (const auto& [identifier, copy] : copies_) {
-    LayerChange change = difference(*copy.original, *copy.layer);
+    LayerChange change;
+    if (copy.edited) {
+      change = difference(*copy.original, *copy.layer);
+    }
     if (!change.empty()) {
       all.push_back(std::move(change));
     }
@@ -136,8 +144,9 @@ Result<void> EditedLayers::edit(const std::string& identifier, const Edit& work)
   LayerEditor editor(writable(identifier));
   Result<void> done = work(editor);
   if (!done) {
-    // What looked at the layer meanwhile saw specs that are gone.
-    composition_ += changes_composition(editor.roll_back()) ? 1 : 0;
+    if (changes_composition(editor.roll_back())) {
+      note_place(identifier);  // what looked at the layer meanwhile saw specs that are gone
+    }
     return done;
   }
   LayerChange change = editor.take_change();

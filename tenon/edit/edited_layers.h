@@ -19,27 +19,33 @@ namespace tenon::edit {
 
 class LayerEditor;
 
-/// Copies of layers that edits have changed, beside the layers as they were given, and the history
-/// of these edits. Several editors may share one: each sees the edits of all, in one history.
+/// Copies of the layers of scenes, which edits change where they are, beside the layers as they
+/// were given, and the history of these edits. Several editors may share one: each sees the edits
+/// of all, in one history.
 class EditedLayers {
  public:
   using Edit = Function<Result<void>(LayerEditor&)>;
 
-  /// The copy where there is one, else `original`, which may be null.
-  layer::LayerPtr current(const layer::LayerPtr& original) const;
-  /// The copy of a layer; null: none.
+  /// The copy that scenes are composed of, made where there is none; null for null. It changes with
+  /// the edits, until somebody else holds it or keep() was called: then the next edit makes
+  /// another.
+  layer::LayerPtr shown(const layer::LayerPtr& original);
+  /// The same where there is a copy, else `original`.
+  layer::LayerPtr shown_if_copied(const layer::LayerPtr& original) const;
+  /// Opens copies: those that there are when this is called, and of other layers new ones.
+  static compose::LayerOpener opener(const std::shared_ptr<EditedLayers>& layers,
+                                     compose::LayerOpener inner);
+  /// The copy of a layer; null: none. While somebody holds it, it stays as it is.
   layer::LayerPtr find(const std::string& identifier) const;
-  /// Opens copies where there are some; others by `inner`. It keeps the copies of this moment.
-  compose::LayerOpener opener(compose::LayerOpener inner) const;
-
-  /// The same two for views that live no longer than `composition()` stays as it is: a copy that is
-  /// lent is not kept alive, so that edits may change it where it is.
-  layer::LayerPtr lent(const layer::LayerPtr& original) const;
-  compose::LayerOpener lending_opener(compose::LayerOpener inner) const;
+  /// Edits were made to the layer, or begun, or it was added.
+  bool is_edited(const std::string& identifier) const;
+  /// All copies of now stay as they are.
+  void keep();
 
   /// A layer that is in no file, as it is before all edits.
   void add(layer::Layer layer);
-  /// Makes a copy of `original`, unless there is one.
+  /// Makes a copy of `original`, unless there is one; scenes that have opened it are composed
+  /// again.
   void copy(const layer::LayerPtr& original);
 
   /// Runs an edit of a layer that there is a copy of, all or nothing; a step or part of one.
@@ -56,17 +62,28 @@ class EditedLayers {
   /// Another number after each change of a layer, and after a layer came.
   std::size_t revision() const { return revision_; }
   /// Another number when prims may be composed of other specs, or of specs at another place in
-  /// memory. Values and properties may differ under the same one.
+  /// memory. Values, properties, types and applied schemas may differ under the same one.
   std::size_t composition() const { return composition_; }
+  /// The changes of the log since then are all that may make scenes of these layers differ.
+  bool are_in_place_since(std::size_t composition,
+                          const std::vector<layer::LayerPtr>& layers) const;
+  /// Steps of the history that can be taken back.
+  std::size_t step_count() const { return done_.size(); }
 
  private:
   using Step = std::vector<LayerChange>;
   struct Copy {
     std::shared_ptr<layer::Layer> layer;
+    layer::LayerPtr shown;     ///< the same, which scenes hold: edits need not mind these
     layer::LayerPtr original;  ///< before all edits
+    bool kept = false;         ///< stays as it is
+    bool edited = false;       ///< may differ from `original`
+    std::size_t placed = 0;    ///< composition() when it took the place of another
   };
 
+  static void place(Copy& copy, layer::Layer layer);
   layer::Layer& writable(const std::string& identifier);
+  void note_place(const std::string& identifier);
   void note(LayerChange change);
   void apply_step(const Step& step);
   static Step backwards(const Step& step);
@@ -75,6 +92,7 @@ class EditedLayers {
   std::vector<LayerChange> log_;
   std::size_t revision_ = 0;
   std::size_t composition_ = 0;
+  std::size_t added_ = 0;  // composition() when a layer came that arcs may not have found
   std::vector<Step> done_;
   std::vector<Step> undone_;
   Step* open_step_ = nullptr;  // while as_one_step runs

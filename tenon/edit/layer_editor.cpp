@@ -118,8 +118,11 @@ void LayerEditor::erase(Path path, Token field) {
 }
 
 void LayerEditor::add_child(Path parent, Token field, Token name) {
-  std::vector<Token> names = layer_->children(parent, field);
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  const std::vector<Token>& listed = layer_->children(parent, field);
+  if (std::find(listed.begin(), listed.end(), name) == listed.end()) {
+    std::vector<Token> names;
+    names.reserve(listed.size() + 1);  // lists may be long, and are kept by the history
+    names.insert(names.end(), listed.begin(), listed.end());
     names.push_back(name);
     set(parent, field, Value(std::move(names)));
   }

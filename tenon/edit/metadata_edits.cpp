@@ -9,6 +9,7 @@
 #include "tenon/edit/edit_errors.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/edit/stage_editor.h"
+#include "tenon/edit/working_stage.h"
 #include "tenon/layer/fields.h"
 #include "tenon/layer/metadata_fields.h"
 #include "tenon/layer/type_names.h"
@@ -95,8 +96,9 @@ void set_key(layer::Dictionary& dictionary, const std::string& key_path, const V
 /// The spec that metadata of an object goes to, made where it is missing.
 Result<Path> StageEditor::object_spec(LayerEditor& editor, Path object) {
   if (object.is_absolute_root()) {
-    const bool of_stage = target_.layer == root_->identifier() ||
-                          (session_ != nullptr && target_.layer == session_->identifier());
+    const bool of_stage =
+        target_.layer == sources_->root->identifier() ||
+        (sources_->session != nullptr && target_.layer == sources_->session->identifier());
     if (!of_stage) {
       return outside_target(object, target_.layer);
     }

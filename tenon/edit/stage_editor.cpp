@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Layers, edit target and composition; the edits themselves are in *_edits.cpp, the history in
-// edited_layers.cpp. There are two looks at the composed scene. `view()` composes the prims that an
-// edit asks for and no others; it looks at the edited layers where they are, and serves until prims
-// may be composed otherwise, so that many values can be set in a row. `stage()` composes everything
-// and is handed out: it keeps its layers, and the next edit of one of them changes a copy.
+// edited_layers.cpp. There are two looks at the composed scene, at the edited layers where they
+// are. `view()` composes the prims that an edit asks for and no others, and serves until prims may
+// be composed otherwise, so that many values can be set in a row. `working_stage()` composes
+// everything, and likewise serves as long as it can. `stage()` hands it out to stay as it is: the
+// next edit of one of its layers changes a copy.
 #include "tenon/edit/stage_editor.h"
 
 #include "tenon/compose/prim_index.h"
 #include "tenon/edit/composed_view.h"
 #include "tenon/edit/edit_errors.h"
 #include "tenon/edit/layer_editor.h"
+#include "tenon/edit/working_stage.h"
 
 namespace tenon::edit {
 namespace {
@@ -26,12 +28,11 @@ Result<layer::LayerPtr> no_layers(const std::string& asset_path, const layer::La
 
 StageEditor::StageEditor(layer::LayerPtr root, layer::LayerPtr session, compose::LayerOpener opener,
                          stage::StageOptions options)
-    : root_(std::move(root)),
-      session_(std::move(session)),
-      opener_(std::move(opener)),
-      options_(std::move(options)),
-      layers_(std::make_shared<EditedLayers>()) {
-  target_.layer = root_->identifier();
+    : sources_(std::make_unique<SceneSources>(SceneSources{std::move(root), std::move(session),
+                                                           std::move(opener), std::move(options)})),
+      layers_(std::make_shared<EditedLayers>()),
+      working_(std::make_unique<WorkingStage>()) {
+  target_.layer = sources_->root->identifier();
 }
 
 StageEditor::StageEditor(StageEditor&&) noexcept = default;
@@ -49,7 +50,7 @@ StageEditor StageEditor::over(layer::LayerPtr root, layer::LayerPtr session,
 }
 
 StageEditor StageEditor::under_session(layer::LayerPtr session) const {
-  StageEditor other(root_, std::move(session), opener_, options_);
+  StageEditor other(sources_->root, std::move(session), sources_->opener, sources_->options);
   other.layers_ = layers_;
   return other;
 }
@@ -58,26 +59,29 @@ StageEditor StageEditor::under_session(layer::LayerPtr session) const {
 
 ComposedView& StageEditor::view() {
   if (view_ == nullptr || view_composition_ != layers_->composition()) {
-    view_ = std::make_unique<ComposedView>(layers_->lent(root_), layers_->lent(session_),
-                                           layers_->lending_opener(opener_), options_.compose);
+    view_ = std::make_unique<ComposedView>(
+        layers_->shown(sources_->root), layers_->shown_if_copied(sources_->session),
+        EditedLayers::opener(layers_, sources_->opener), sources_->options.compose);
     view_composition_ = layers_->composition();
   }
   return *view_;
 }
 
 Result<std::shared_ptr<const stage::Stage>> StageEditor::stage() {
-  if (stage_ != nullptr && stage_revision_ == layers_->revision()) {
-    return stage_;
+  TENON_TRY(auto composed, working_stage());
+  layers_->keep();
+  if (stage_ == nullptr || stage_revision_ != layers_->revision()) {
+    earlier_ = std::move(stage_);
+    earlier_changes_ = stage_changes_;
   }
-  TENON_TRY(stage::Stage composed,
-            stage::Stage::open(layers_->current(root_), layers_->current(session_),
-                               layers_->opener(opener_), options_));
-  earlier_ = std::move(stage_);
-  earlier_changes_ = stage_changes_;
-  stage_ = std::make_shared<const stage::Stage>(std::move(composed));
+  stage_ = std::move(composed);
   stage_revision_ = layers_->revision();
   stage_changes_ = layers_->log().size();
   return stage_;
+}
+
+Result<std::shared_ptr<const stage::Stage>> StageEditor::working_stage() {
+  return working_->get(layers_, *sources_);
 }
 
 const ChangeNotice& StageEditor::notice() {
@@ -95,21 +99,21 @@ const ChangeNotice& StageEditor::notice() {
 // Layers
 
 layer::LayerPtr StageEditor::layer(const std::string& identifier) {
-  if (layer::LayerPtr copy = layers_->find(identifier)) {
-    return copy;
+  if (layers_->is_edited(identifier)) {
+    return layers_->find(identifier);
   }
-  for (const layer::LayerPtr& known : {root_, session_, target_layer_}) {
+  for (const layer::LayerPtr& known : {sources_->root, sources_->session, target_layer_}) {
     if (known != nullptr && known->identifier() == identifier) {
       return known;
     }
   }
   layer::LayerPtr found = view().layer(identifier);
-  if (found == nullptr && stage_ != nullptr) {
-    for (const layer::LayerPtr& used : stage_->used_layers()) {
-      found = used->identifier() == identifier ? used : found;
-    }
+  if (found == nullptr) {
+    found = working_->layer(identifier);
   }
-  return found;
+  // What scenes hold changes with edits; what is handed out does not.
+  const layer::LayerPtr copy = found == nullptr ? nullptr : layers_->find(identifier);
+  return copy == nullptr ? found : copy;
 }
 
 void StageEditor::add_layer(layer::Layer layer) { layers_->add(std::move(layer)); }
@@ -179,7 +183,7 @@ Result<void> StageEditor::edit(const Function<Result<void>(LayerEditor&)>& work)
 
 Result<void> StageEditor::edit_layer(const std::string& identifier,
                                      const Function<Result<void>(LayerEditor&)>& work) {
-  if (layers_->find(identifier) == nullptr) {
+  if (!layers_->is_edited(identifier)) {
     const layer::LayerPtr original = layer(identifier);
     if (original == nullptr) {
       return unknown_layer(identifier);

@@ -26,7 +26,9 @@ namespace tenon::edit {
 
 class ComposedView;
 class LayerEditor;
+class WorkingStage;
 struct FoundPrim;
+struct SceneSources;
 
 /// Authoring on a composed scene. Layers are values: the editor changes copies of its own, no file
 /// and no layer of another owner. Edits author the same opinions as OpenUSD's UsdStage, UsdPrim and
@@ -55,6 +57,11 @@ class StageEditor {
   /// The scene with all edits so far. Composed when asked for; stages returned before stay as they
   /// were.
   Result<std::shared_ptr<const stage::Stage>> stage();
+  /// The same for who looks after each of many edits: no layer is copied for it, and nothing is
+  /// composed after edits of values, properties, types and applied schemas. It changes with the
+  /// edits to come: what was looked up in it holds until the next one, and after that it is what
+  /// this returns then that shows the scene.
+  Result<std::shared_ptr<const stage::Stage>> working_stage();
   /// What changed between the stages of the last two `stage()` calls with edits between them.
   const ChangeNotice& notice();
 
@@ -85,6 +92,8 @@ class StageEditor {
   // History
   bool undo() { return layers_->undo(); }  ///< false when there is nothing to take back
   bool redo() { return layers_->redo(); }
+  /// How often undo() would find something. Edits that change nothing are no steps.
+  std::size_t step_count() const { return layers_->step_count(); }
   /// All edits of `work` as one step; when it returns an Error none of them stays.
   Result<void> as_one_step(const Function<Result<void>()>& work) {
     return layers_->as_one_step(work);
@@ -194,16 +203,14 @@ class StageEditor {
   Result<void> edit_arcs(Path prim, Token field, ListEdit<Arc> edit);
   Result<void> edit_class_arcs(Path prim, Token field, ListEdit<Path> edit);
 
-  layer::LayerPtr root_;     // as given
-  layer::LayerPtr session_;  // as given, or null
-  compose::LayerOpener opener_;
-  stage::StageOptions options_;
-  std::shared_ptr<EditedLayers> layers_;  // shared with the editors under other sessions
+  std::unique_ptr<SceneSources> sources_;  // as given
+  std::shared_ptr<EditedLayers> layers_;   // shared with the editors under other sessions
   EditTarget target_;
-  layer::LayerPtr target_layer_;                 // as it was given, where composition lacks it
-  std::unique_ptr<ComposedView> view_;           // of lent layers
-  std::size_t view_composition_ = 0;             // EditedLayers::composition() of the view
-  std::shared_ptr<const stage::Stage> stage_;    // the last that was handed out
+  layer::LayerPtr target_layer_;  // as it was given, where composition lacks it
+  std::unique_ptr<ComposedView> view_;
+  std::size_t view_composition_ = 0;  // EditedLayers::composition() of the view
+  std::unique_ptr<WorkingStage> working_;
+  std::shared_ptr<const stage::Stage> stage_;    // the last that was handed out to stay
   std::size_t stage_revision_ = 0;               // EditedLayers::revision() of it
   std::size_t stage_changes_ = 0;                // changes in the log when it was composed
   std::shared_ptr<const stage::Stage> earlier_;  // before it, until somebody asks for the notice

@@ -27,6 +27,40 @@ const compose::PrimIndex& empty_index() {
   return index;
 }
 
+bool is_active(const compose::PrimIndex& index) {
+  const bool* active = strongest_opinion<bool>(index, fields::active);
+  return active == nullptr || *active;
+}
+
+void set_flags(PrimData& prim, const PrimData& parent) {
+  const compose::PrimIndex& index = *prim.index;
+  prim.active = is_active(index);
+  prim.loaded = prim.active && (index.has_payloads ? index.payload_loaded : parent.loaded);
+  prim.specifier = composed_specifier(index);
+  prim.abstract = parent.abstract || prim.specifier == Specifier::Class;
+  prim.defined = parent.defined && prim.specifier != Specifier::Over;
+  prim.model = prim.group = false;
+  if (parent.group) {
+    if (const Token* kind = strongest_opinion<Token>(index, fields::kind)) {
+      prim.group = schema::is_kind(*kind, "group");
+      prim.model = prim.group || schema::is_kind(*kind, "model");
+    }
+  }
+}
+
+void set_definition(StageData& data, PrimData& prim) {
+  prim.definition =
+      &data.definitions.get(composed_type_name(*prim.index), composed_api_schemas(*prim.index));
+}
+
+/// A prim behind all others. The first of a path counts.
+std::uint32_t add_record(StageData& data, Path path) {
+  data.prims.emplace_back().path = path;
+  const auto number = static_cast<std::uint32_t>(data.prims.size());
+  data.by_path.find_or_put(path, number, data.path_of());
+  return number;
+}
+
 class Populator {
  public:
   explicit Populator(StageData& data)
@@ -49,13 +83,7 @@ class Populator {
   }
 
  private:
-  /// A prim behind all others. The first of a path counts.
-  std::uint32_t add(Path path) {
-    data_.prims.emplace_back().path = path;
-    const auto number = static_cast<std::uint32_t>(data_.prims.size());
-    data_.by_path.find_or_put(path, number, data_.path_of());
-    return number;
-  }
+  std::uint32_t add(Path path) { return add_record(data_, path); }
 
   /// Has the indices of all that is still to be walked built on two threads, once it seems to be
   /// worth it. What needed a layer that was not open is tried again when twice as much is there.
@@ -193,8 +221,7 @@ class Populator {
         add_clips(own_clip_definitions(data_, *prim.index, data_.diagnostics), parent.clips(), path,
                   data_.diagnostics);
     prim.extras = clips == nullptr ? nullptr : extras_with(*clips, parent);
-    prim.definition =
-        &data_.definitions.get(composed_type_name(*prim.index), composed_api_schemas(*prim.index));
+    set_definition(data_, prim);
     return number;
   }
 
@@ -214,27 +241,6 @@ class Populator {
     return sets.empty() ? nullptr : &data_.clip_sets.emplace_back(std::move(sets));
   }
 
-  static bool is_active(const compose::PrimIndex& index) {
-    const bool* active = strongest_opinion<bool>(index, fields::active);
-    return active == nullptr || *active;
-  }
-
-  static void set_flags(PrimData& prim, const PrimData& parent) {
-    const compose::PrimIndex& index = *prim.index;
-    prim.active = is_active(index);
-    prim.loaded = prim.active && (index.has_payloads ? index.payload_loaded : parent.loaded);
-    prim.specifier = composed_specifier(index);
-    prim.abstract = parent.abstract || prim.specifier == Specifier::Class;
-    prim.defined = parent.defined && prim.specifier != Specifier::Over;
-    prim.model = prim.group = false;
-    if (parent.group) {
-      if (const Token* kind = strongest_opinion<Token>(index, fields::kind)) {
-        prim.group = schema::is_kind(*kind, "group");
-        prim.model = prim.group || schema::is_kind(*kind, "model");
-      }
-    }
-  }
-
   StageData& data_;
   const bool may_build_ahead_;                     // asked of the system once, not for every prim
   std::unordered_map<std::string, Path> sources_;  // of prototypes; filled for the first instance
@@ -250,6 +256,22 @@ class Populator {
 void populate(StageData& data) {
   Populator(data).run();
   bound_instances(data);
+}
+
+std::uint32_t add_plain_child(StageData& data, std::uint32_t parent_number, Token name) {
+  const PrimData& parent = *data.numbered(parent_number);
+  const compose::PrimIndex& index = data.cache->child_index(*parent.index, name);
+  if (parent.extras != nullptr || index.instanceable || !index.extras().errors.empty() ||
+      data.record(index.path) != nullptr || data.prims.size() >= data.options.max_prims) {
+    return 0;
+  }
+  const std::uint32_t number = add_record(data, index.path);
+  PrimData& prim = *data.numbered(number);
+  prim.index = &index;
+  prim.parent = parent_number;
+  set_flags(prim, parent);
+  set_definition(data, prim);
+  return number;
 }
 
 }  // namespace tenon::stage

@@ -99,5 +99,9 @@ const PrimData* record_of(const Stage& stage, Path path);
 
 /// Fills `data` from its cache: every prim that the mask includes, prototypes once each.
 void populate(StageData& data);
+/// Adds the prim for a name of a child that came later, outside of prototypes; its number. It has
+/// to be linked to its siblings. 0 where more than a record is needed: for instances, clips,
+/// findings of composition, and what goes beyond a limit.
+std::uint32_t add_plain_child(StageData& data, std::uint32_t parent, Token name);
 
 }  // namespace tenon::stage

@@ -8,7 +8,8 @@ usage: edit_stage.py PROGRAM [--scripts N] [--seed S] [--edits N] [--keep FOLDER
 PROGRAM is tests/tools/edit_script.cpp. Per script these must agree: which edits are accepted, the
 text of every edited layer, and the text of the flattened stage after the last edit. An edit that
 OpenUSD refuses half-way is taken back on its side: tenon does all of an edit or nothing. PROGRAM
-also takes all edits back and does them again, and edits the text of each file, which OpenUSD must
+also compares the scene that follows its edits with a new one after each of them,
+takes all edits back and does them again, and edits the text of each file, which OpenUSD must
 read as the edited layer. Exit 77: no OpenUSD.
 """
 
@@ -338,6 +339,8 @@ def difference(want, have, script):
         if layer.ExportToString() != have["layers"][name]:
             again = lines_that_differ(have["layers"][name], layer.ExportToString())
             return f"{name} edited in its text {again}"
+    if "astray" in have:
+        return f"the scene that follows the edits is another one after {have['astray']}"
     if not have["history"]:
         return "undo or redo lead elsewhere"
     flats, flat = [same_flat(text) for text in want["flats"]], same_flat(have["flat"])

@@ -4,6 +4,7 @@
 //
 // usage: tenon_edit_script SCRIPT.json, with {"root": FILE, "session": bool, "edits": [...]}
 // Prints {"results": [true | "message"...], "layers": {name: text}, "flat": text, "history": bool,
+// "astray": the first edit after which the scene that follows edits is not the one of the layers,
 // "edited": {name: {"text": the file's text edited, "kept": its layout was kept}}}.
 // Exit: 0 printed; 2 wrong usage or script; 3 a layer could not be opened.
 #include <cstdio>
@@ -236,15 +237,39 @@ std::string texts_of(const Editor& editor) {
   return all;
 }
 
+using Registry = std::shared_ptr<formats::LayerRegistry>;
+
+/// The scene that follows the edits is the one that is composed of the layers as they are now.
+bool follows(Editor& editor, const layer::LayerPtr& root, const Registry& registry) {
+  const auto edited = editor.edited_layers();
+  const auto now = [&edited](const layer::LayerPtr& layer) {
+    const auto found = edited.find(layer->identifier());
+    return found == edited.end() ? layer : found->second;
+  };
+  const auto working = editor.working_stage();
+  const auto fresh = stage::Stage::open(
+      now(root), nullptr,
+      [&](const std::string& asset, const layer::Layer& anchor) -> Result<layer::LayerPtr> {
+        TENON_TRY(const layer::LayerPtr opened, registry->open(asset, &anchor));
+        return now(opened);
+      });
+  return working && fresh &&
+         formats::write_text(stage::flatten(**working)) ==
+             formats::write_text(stage::flatten(*fresh));
+}
+
 /// Taking everything back leads to the layers as they were, and forward again to the same.
-bool history_holds(Editor& editor) {
+bool history_holds(Editor& editor, const std::function<bool()>& holds) {
   const std::string before = texts_of(editor);
+  bool held = true;
   while (editor.undo()) {
+    held = held && holds();
   }
   const bool back = editor.changes().empty();
   while (editor.redo()) {
+    held = held && holds();
   }
-  return back && texts_of(editor) == before;
+  return held && back && texts_of(editor) == before;
 }
 
 int run(const Json& script) {
@@ -265,11 +290,15 @@ int run(const Json& script) {
   add_arc_ops(ops);
   Json output = {
       {"results", Json::array()}, {"layers", Json::object()}, {"edited", Json::object()}};
+  const auto holds = [&] { return follows(editor, *root, registry); };
   for (const Json& one : script.at("edits")) {
     const Done done = ops.at(text_in(one, "op"))(editor, one);
     output["results"].push_back(done ? Json(true) : Json(done.error().to_string()));
+    if (!holds() && !output.contains("astray")) {
+      output["astray"] = one;
+    }
   }
-  output["history"] = history_holds(editor);
+  output["history"] = history_holds(editor, holds);
   for (const auto& [identifier, layer] : editor.edited_layers()) {
     const std::string name = identifier.substr(g_folder.size());
     output["layers"][name] = formats::write_text(*layer);

@@ -4,13 +4,15 @@
 // A wish has an effect when engines receive something else without its edits. Reading the physics
 // once for each wish would take long where there are hundreds, so they are removed together, in
 // rounds in which no two are about one prim: a difference of an object is due to the wish about its
-// prim. The rest is then removed all at once: where nothing differs then, none of it has an effect;
-// else each half is looked at by itself. A property that composes to the value that was there
-// before is not judged: it is as requested.
+// prim, that of a pair of colliders to the one about a prim that lists one of them for the other.
+// The rest is then removed all at once: where nothing differs then, none of it has an effect; else
+// each half is looked at by itself. A property that composes to the value that was there before is
+// not judged: it is as requested.
 #include "tenon/asset/editing/edit_effects.h"
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "tenon/asset/editing/edit_reason.h"
@@ -23,6 +25,8 @@ namespace tenon {
 namespace {
 
 using Differences = std::vector<scene::SceneDifference>;
+
+constexpr std::string_view kBetween = " and ";  // the two paths of a pair
 
 /// Lists of unread properties do not affect motion.
 Differences differences_between(const scene::PhysicsScene& before,
@@ -50,6 +54,41 @@ void tell_of(const AssetEdit& edit, const PhysicsView& view, bool elsewhere,
   }
 }
 
+/// The prim of an object that differs, without another; of a pair of colliders each with the other.
+std::vector<std::pair<Path, Path>> ends_of(const scene::SceneDifference& difference) {
+  const std::size_t between = difference.path.find(kBetween);
+  if (between == std::string::npos) {
+    const auto path = Path::parse(difference.path);
+    return path ? std::vector{std::pair(*path, Path())} : std::vector<std::pair<Path, Path>>();
+  }
+  const auto a = Path::parse(difference.path.substr(0, between));
+  const auto b = Path::parse(difference.path.substr(between + kBetween.size()));
+  return a && b ? std::vector{std::pair(*a, *b), {*b, *a}} : std::vector<std::pair<Path, Path>>();
+}
+
+/// What prims list as physics:filteredPairs, under any variant.
+class FilteredPairs {
+ public:
+  explicit FilteredPairs(const std::vector<PhysicsView>& views) : views_(views) {}
+
+  /// `prim` lists `other`, or something above it.
+  bool lists(Path prim, Path other) {
+    const auto [listed, made] = listed_.try_emplace(prim);
+    for (std::size_t v = 0; made && v < views_.size(); ++v) {
+      const stage::Prim at = views_[v].stage->prim(prim);
+      const std::vector<Path> targets =
+          at ? at.relationship(Token("physics:filteredPairs")).targets() : std::vector<Path>();
+      listed->second.insert(listed->second.end(), targets.begin(), targets.end());
+    }
+    return std::any_of(listed->second.begin(), listed->second.end(),
+                       [&](Path target) { return other.has_prefix(target); });
+  }
+
+ private:
+  const std::vector<PhysicsView>& views_;
+  std::map<Path, std::vector<Path>> listed_;
+};
+
 /// Being applied is all that these say.
 bool makes_an_object(Token api) {
   return api == "PhysicsRigidBodyAPI" || api == "PhysicsCollisionAPI" ||
@@ -63,13 +102,18 @@ EditEffects::EditEffects(AssetEditor& editor, const std::vector<AssetEdit>& edit
   options_.mesh_cache = &meshes_;
 }
 
+PhysicsView EditEffects::look_at(const AssetEditor::View& view) {
+  PhysicsView seen{view.variant, view.stage, {}, {}};
+  seen.scene = physics::read_physics(*view.stage, options_, seen.findings);
+  return seen;
+}
+
 Result<EditEffects::Views> EditEffects::look() {
-  TENON_TRY(const auto stages, editor_.views());
+  TENON_TRY(const auto stages, editor_.working_views());
   Views views;
   for (const AssetEditor::View& one : stages) {
-    PhysicsView view{one.variant, one.stage, {}, {}};
-    view.scene = physics::read_physics(*one.stage, options_, view.findings);
-    views.push_back(std::move(view));
+    views.push_back(look_at(one));
+    views.back().stage.reset();
   }
   return views;
 }
@@ -187,9 +231,28 @@ std::optional<EditEffects::Views> EditEffects::look_without(const Wishes& left_o
   return views ? std::optional(*std::move(views)) : std::nullopt;
 }
 
-bool EditEffects::is_effect_of(const Wish& wish, const scene::SceneDifference& difference) const {
-  return std::any_of(wish.prims.begin(), wish.prims.end(),
-                     [&](Path prim) { return difference.path == prim.str(); });
+/// The wishes of a round that the differences are due to.
+std::set<std::size_t> EditEffects::causes(const Wishes& round, const Differences& found) const {
+  std::map<Path, std::size_t> wish_at;  // no two are about one prim
+  for (const std::size_t wish : round) {
+    for (const Path prim : wishes_[wish].prims) {
+      wish_at[prim] = wish;
+    }
+  }
+  std::set<std::size_t> causes;
+  FilteredPairs filtered(after_);
+  for (const scene::SceneDifference& one : found) {
+    for (const auto& [path, other] : ends_of(one)) {
+      // Bodies list each other with all that is below them.
+      for (Path at = path; !at.empty(); at = other.empty() ? Path() : at.parent()) {
+        const auto wish = wish_at.find(at);
+        if (wish != wish_at.end() && (other.empty() || filtered.lists(at, other))) {
+          causes.insert(wish->second);
+        }
+      }
+    }
+  }
+  return causes;
 }
 
 /// `alone`: nothing but the round was edited, so that what was before is what is without it.
@@ -205,15 +268,10 @@ void EditEffects::judge_round(const Wishes& round, bool alone) {
   for (std::size_t v = 0; v < after_.size(); ++v) {
     const Differences found =
         alone ? effects_[v].differences : differences_between(without[v].scene, after_[v].scene);
-    for (const std::size_t i : round) {
-      Wish& wish = wishes_[i];
-      const bool effect =
-          round.size() == 1 ? !found.empty()
-                            : std::any_of(found.begin(), found.end(),
-                                          [&](const auto& one) { return is_effect_of(wish, one); });
-      if (effect) {
-        wish.variants.insert(after_[v].variant);
-      }
+    const bool one_for_all = round.size() == 1 && !found.empty();
+    for (const std::size_t i :
+         one_for_all ? std::set(round.begin(), round.end()) : causes(round, found)) {
+      wishes_[i].variants.insert(after_[v].variant);
     }
   }
 }
@@ -277,7 +335,10 @@ Result<void> EditEffects::judge_wishes() {
 }
 
 Result<void> EditEffects::judge(EditedAsset& asset, Diagnostics& diagnostics) {
-  TENON_TRY(after_, look());
+  TENON_TRY(const auto stages, editor_.views());
+  for (const AssetEditor::View& one : stages) {
+    after_.push_back(look_at(one));
+  }
   for (std::size_t v = 0; v < after_.size(); ++v) {
     effects_.push_back({after_[v].variant, differences_between(before_[v].scene, after_[v].scene)});
   }

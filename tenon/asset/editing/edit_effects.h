@@ -23,7 +23,7 @@ namespace tenon {
 /// What engines receive under one selection of "Physics".
 struct PhysicsView {
   std::string variant;
-  std::shared_ptr<const stage::Stage> stage;
+  std::shared_ptr<const stage::Stage> stage;  ///< with the edits; null before them
   scene::PhysicsScene scene;
   Diagnostics findings;  ///< of reading it
 };
@@ -60,13 +60,16 @@ class EditEffects {
   bool is_about_physics(const AssetEdit& edit) const;
   bool is_correction(const AssetEdit& edit) const;
   std::vector<Wishes> rounds() const;
+  PhysicsView look_at(const AssetEditor::View& view);
+  /// The physics as it is now, without the stages, which later edits change.
   Result<Views> look();
   /// The physics without the edits of some wishes; nullopt: the others cannot be made alone.
   std::optional<Views> look_without(const Wishes& left_out);
   Result<void> judge_wishes();
   void judge_round(const Wishes& round, bool alone);
   void judge_suspects(const Wishes& suspects);
-  bool is_effect_of(const Wish& wish, const scene::SceneDifference& difference) const;
+  std::set<std::size_t> causes(const Wishes& round,
+                               const std::vector<scene::SceneDifference>& found) const;
   void tell(EditedAsset& asset, Diagnostics& diagnostics) const;
 
   AssetEditor& editor_;
