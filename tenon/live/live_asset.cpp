@@ -6,6 +6,7 @@
 // without one. The JSON here is what messages hold of it, in SI; endless bounds are null.
 #include "tenon/live/live_asset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -13,8 +14,8 @@
 #include "tenon/answers/or_null.h"
 #include "tenon/asset/answers/explained_stage.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset/simulating/engine_choice.h"
-#include "tenon/dynamics/posture_text.h"
 #include "tenon/make_simulation.h"
 
 namespace tenon::live {
@@ -69,6 +70,11 @@ Json position_json(const LiveAsset& asset, scene::Index joint) {
   return list;
 }
 
+Json leader_json(const scene::PhysicsScene& scene, const scene::Joint& joint) {
+  return joint.mimics.empty() ? Json(nullptr)
+                              : Json(scene.joints[joint.mimics.front().leader].path.str());
+}
+
 Json point_json(const Vec3d& point) { return Json::array({point[0], point[1], point[2]}); }
 
 Json path_or_null(const scene::PhysicsScene& scene, const std::optional<scene::Index>& body) {
@@ -104,6 +110,7 @@ void make_live_world(const LiveAssetOptions& options, const std::string& engine,
   engines::SimulationOptions simulation;
   simulation.time_step = options.time_step;
   simulation.outputs.contacts = true;
+  simulation.outputs.efforts = true;
   Diagnostics ignored;
   auto world = make_world(engine, asset.scene(), simulation, ignored);
   if (world) {
@@ -122,7 +129,7 @@ Result<LiveAsset> open_live_asset(const LiveAssetOptions& options) {
   Diagnostics of_physics;
   asset.explained = std::make_unique<answers::Explained>(
       explained_stage(*asset.stage, options.readings, of_physics));
-  TENON_CHECK(dynamics::start_at(asset.explained->scene, options.pose));
+  TENON_CHECK(start_at(*asset.stage, asset.explained->scene, options.pose));
   const auto rotations = scene::wanted_rotations(asset.scene());
   for (std::size_t i = 0; i < asset.scene().joints.size(); ++i) {
     const scene::Joint& joint = asset.scene().joints[i];
@@ -155,6 +162,7 @@ Json joints_json(const LiveAsset& asset) {
                     {"kind", scene::joint_kind_name(joint.kind)},
                     {"enabled", joint.enabled},
                     {"follows", !joint.mimics.empty()},
+                    {"leader", leader_json(asset.scene(), joint)},
                     {"dofs", dofs_json(asset.dofs[i])},
                     {"position", position_json(asset, static_cast<scene::Index>(i))},
                     {"drives", drives_json(joint)}});
@@ -166,6 +174,37 @@ Json positions_json(const LiveAsset& asset) {
   Json rows = Json::array();
   for (std::size_t i = 0; i < asset.scene().joints.size(); ++i) {
     rows.push_back(position_json(asset, static_cast<scene::Index>(i)));
+  }
+  return rows;
+}
+
+Json velocities_json(const LiveAsset& asset) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < asset.scene().joints.size(); ++i) {
+    rows.push_back(asset.world
+                       ? Json(asset.world->joint_state(static_cast<scene::Index>(i)).velocity)
+                       : Json::array());
+  }
+  return rows;
+}
+
+Json efforts_json(const LiveAsset& asset) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; asset.world && i < asset.scene().joints.size(); ++i) {
+    const auto efforts = asset.world->drive_efforts(static_cast<scene::Index>(i));
+    rows.push_back(efforts ? Json(*efforts) : Json(nullptr));
+  }
+  return rows;
+}
+
+Json body_velocities_json(const LiveAsset& asset, std::size_t most) {
+  Json rows = Json::array();
+  const std::size_t count = std::min(asset.scene().bodies.size(), most);
+  for (std::size_t i = 0; asset.world && i < count; ++i) {
+    const engines::BodyState state = asset.world->body_state(static_cast<scene::Index>(i));
+    const Vec3d& linear = state.linear_velocity;
+    const Vec3d& angular = state.angular_velocity;
+    rows.push_back({linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]});
   }
   return rows;
 }

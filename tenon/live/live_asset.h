@@ -59,6 +59,12 @@ void make_live_world(const LiveAssetOptions& options, const std::string& engine,
 answers::Json joints_json(const LiveAsset& asset);
 /// Positions of every joint, as its rows have them.
 answers::Json positions_json(const LiveAsset& asset);
+/// Their velocities, and what their drives exert, likewise: `velocities` and `efforts` of the
+/// notice `plots`.
+answers::Json velocities_json(const LiveAsset& asset);
+answers::Json efforts_json(const LiveAsset& asset);
+/// What `bodies` of the notice `plots` has, of at most `most` bodies.
+answers::Json body_velocities_json(const LiveAsset& asset, std::size_t most);
 /// What `rows` of the notice `contacts` has.
 answers::Json contacts_json(const LiveAsset& asset, std::size_t most);
 

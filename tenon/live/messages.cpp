@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestText = 32 << 10;
 constexpr std::size_t kMostNumbers = 64;
-constexpr std::uint32_t kLargestInteger = 1'000'000;
+constexpr std::string_view kRequestTag = "do";
 constexpr auto kText = FieldType::Text;
 constexpr auto kObject = FieldType::Object;
 constexpr auto kList = FieldType::List;
@@ -44,8 +44,9 @@ constexpr std::array kScene{
     Field{"variants", kList, true, "rows {`prim`, `set`, `selection`, `options`}"},
     Field{"bodies", kList, true, "paths, in the order of pose frames"},
     Field{"joints", kList, true,
-          "rows {`path`, `kind`, `enabled`, `follows`, `dofs`: rows {`dof`, `angular`, `lower`, "
-          "`upper`}, `position`, `drives`: rows {`dof`, `position`, `velocity`, `stiffness`, "
+          "rows {`path`, `kind`, `enabled`, `follows`, `leader`: the first joint that it follows, "
+          "or null, `dofs`: rows {`dof`, `angular`, `lower`, `upper`}, `position`, `drives`: rows "
+          "{`dof`, `position`, `velocity`, `stiffness`, "
           "`damping`, `maxForce`}}"},
     Field{"canUndo", kFlag, true, "there is an edit to take back"},
     Field{"canRedo", kFlag, true, "there is one to make again"},
@@ -57,6 +58,8 @@ constexpr std::array kState{
     Field{"rate", kNumber, true, "the rate that is reached"},
     Field{"contacts", kInteger, true, "how many there are"},
     Field{"pulled", kInteger, true, "bodies being pulled"},
+    Field{"events", kList, true,
+          "what happened once since the start, the first 50: rows {`time`, `prim`, `what`}"},
     Field{"stopped", kObject, false,
           "a finding: the step that failed; the last poses before it stay until a reset"},
     Field{"outdated", kObject, false,
@@ -65,6 +68,14 @@ constexpr std::array kState{
 constexpr std::array kPlots{
     Field{"time", kNumber, true, "[s]"},
     Field{"joints", kList, true, "positions of each joint, in the order of `scene` [rad, m]"},
+    Field{"velocities", kList, true, "of each joint, likewise [rad/s, m/s]"},
+    Field{"efforts", kList, true,
+          "of each joint those of its drives [N m, N]; null where the engine does not tell"},
+    Field{"targets", kList, true,
+          "of each joint those of its drives: rows [position, velocity] in the same units"},
+    Field{"bodies", kList, true,
+          "of the first 256 bodies: linear velocity of the centre of mass [m/s], angular velocity "
+          "[rad/s], world axes, as six numbers"},
     Field{"kinetic", kNumber, true, "[J]"},
     Field{"potential", kNumber, true, "[J]"},
 };
@@ -145,9 +156,8 @@ TypeRule rule_of_type(FieldType type) {
     case FieldType::Number:
       return {"must be a finite number", is_number};
     case FieldType::Integer:
-      return {"must be a whole number from 0 to 1000000", [](const Json& value) {
-                return value.is_number_unsigned() && value.get<std::uint64_t>() <= kLargestInteger;
-              }};
+      return {"must be a whole number",
+              [](const Json& value) { return value.is_number_unsigned(); }};
     case FieldType::Flag:
       return {"must be true or false", [](const Json& value) { return value.is_boolean(); }};
     case FieldType::Point:
@@ -163,6 +173,19 @@ TypeRule rule_of_type(FieldType type) {
   return {"is not a type of requests", [](const Json&) { return false; }};
 }
 
+/// What is wrong with a value of a field; empty: nothing.
+std::string fault_of(const Field& field, const Json& value) {
+  if (value.is_null() && !field.required) {
+    return {};
+  }
+  const TypeRule rule = rule_of_type(field.type);
+  const bool counts = field.type == FieldType::Integer;
+  if (rule.holds(value) && !(counts && value.get<std::uint64_t>() > field.most)) {
+    return {};
+  }
+  return std::string(rule.wanted) + (counts ? " from 0 to " + std::to_string(field.most) : "");
+}
+
 Result<void> check_fields(const MessageInfo& info, const Json& message) {
   for (const auto& [key, value] : message.items()) {
     const auto field =
@@ -174,9 +197,8 @@ Result<void> check_fields(const MessageInfo& info, const Json& message) {
     if (field == info.fields.end()) {
       return bad_field(info, key.substr(0, 64), "is not known");
     }
-    const TypeRule rule = rule_of_type(field->type);
-    if (!rule.holds(value) && !(value.is_null() && !field->required)) {
-      return bad_field(info, key, rule.wanted);
+    if (const std::string fault = fault_of(*field, value); !fault.empty()) {
+      return bad_field(info, key, fault);
     }
   }
   for (const Field& field : info.fields) {
@@ -214,11 +236,14 @@ Json schema_of(FieldType type) {
   return Json::object();
 }
 
-Json message_schema(const MessageInfo& info, const char* tag) {
-  Json properties = {{tag, {{"const", info.name}}}};
+Json message_schema(const MessageInfo& info, std::string_view tag) {
+  Json properties = {{std::string(tag), {{"const", info.name}}}};
   Json required = Json::array({tag});
   for (const Field& field : info.fields) {
     Json schema = schema_of(field.type);
+    if (field.type == FieldType::Integer && tag == kRequestTag) {
+      schema["maximum"] = field.most;
+    }
     if (!field.required && schema.contains("type")) {
       schema["type"] = Json::array({schema["type"], "null"});
     }
@@ -241,7 +266,7 @@ std::span<const MessageInfo> notices() { return kNotices; }
 Json messages_json(std::span<const MessageInfo> requests) {
   Json asked = Json::array();
   for (const MessageInfo& info : requests) {
-    Json schema = message_schema(info, "do");
+    Json schema = message_schema(info, kRequestTag);
     schema["properties"]["id"] = {{"description", "any number or text; comes back in the answer"}};
     asked.push_back({{"name", info.name},
                      {"meaning", info.meaning},

@@ -30,7 +30,7 @@ enum class FieldType : std::uint8_t {
   Text,
   Path,     ///< of a prim, absolute
   Number,   ///< finite
-  Integer,  ///< 0 to 1,000,000
+  Integer,  ///< 0 to Field::most
   Flag,
   Point,    ///< three numbers
   Numbers,  ///< at most 64
@@ -44,6 +44,7 @@ struct Field {
   FieldType type = FieldType::Text;
   bool required = true;  ///< else it may be missing or null
   std::string_view meaning;
+  std::uint32_t most = 1'000'000;  ///< of Integer
 };
 
 /// A kind of message: a request, which says "do", or a notice, which says "is".

@@ -52,9 +52,6 @@ Result<Json> pause(State& state, ClientNumber, const Asked&, Outbox& out) {
 
 Result<Json> step_some(State& state, ClientNumber, const Asked& asked, Outbox& out) {
   const std::uint32_t count = asked.integer("count", 1);
-  if (count > kMostSteps) {
-    return refused("at most 1000 steps are made at once", "ask for fewer, or play");
-  }
   state.playing = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     TENON_CHECK(state.step(out));
@@ -120,6 +117,20 @@ Result<Json> set_joint(State& state, ClientNumber, const Asked& asked, Outbox& o
   state.moved = true;
   state.tell_observers(out);
   return Json{{"position", world->joint_state(index).position}};
+}
+
+Result<Json> set_effort(State& state, ClientNumber, const Asked& asked, Outbox&) {
+  TENON_TRY(engines::World * world, state.world());
+  TENON_TRY(const scene::Index index, state.joint(asked.path("joint")));
+  const std::vector<double> efforts = asked.numbers("effort");
+  const std::size_t count = world->joint_state(index).velocity.size();
+  if (efforts.size() != count) {
+    return refused("the joint has " + std::to_string(count) + " degrees of freedom",
+                   "give as many efforts");
+  }
+  TENON_CHECK(world->set_joint_efforts(index, efforts));
+  state.act();
+  return Json{{"effort", efforts}};
 }
 
 /// The body that is asked for, where it can be pulled.
@@ -213,7 +224,7 @@ Result<Json> tell_messages(State&, ClientNumber, const Asked&, Outbox&) {
 
 constexpr std::array<Field, 0> kNoFields{};
 constexpr std::array kStepFields{
-    Field{"count", FieldType::Integer, false, "how many, at most 1,000; default 1"}};
+    Field{"count", FieldType::Integer, false, "how many, at most 1,000; default 1", kMostSteps}};
 constexpr std::array kSpeedFields{Field{"factor", kNumberField, true, "1 is real time"}};
 constexpr std::array kDriveFields{
     Field{"joint", kPathField, true, "the joint's prim"},
@@ -223,6 +234,9 @@ constexpr std::array kDriveFields{
 constexpr std::array kJointFields{
     Field{"joint", kPathField, true, "the joint's prim"},
     Field{"position", FieldType::Numbers, true, "of each of its degrees of freedom [rad, m]"}};
+constexpr std::array kEffortFields{
+    Field{"joint", kPathField, true, "the joint's prim"},
+    Field{"effort", FieldType::Numbers, true, "along each of its degrees of freedom [N m, N]"}};
 constexpr std::array kForceFields{Field{"body", kPathField, true, "the body's prim"},
                                   Field{"point", kPointField, true, "where, world axes [m]"},
                                   Field{"force", kPointField, true, "world axes [N]"}};
@@ -264,6 +278,11 @@ constexpr std::array kRequests{
              "Moves a joint, and those that mimic it, by hand, while the simulation is paused",
              "{`position`}"},
             set_joint},
+    Request{{"setEffort", kEffortFields,
+             "Forces or torques along a joint, on top of its drives, until they are set again or "
+             "reset",
+             "{`effort`}"},
+            set_effort},
     Request{
         {"force", kForceFields,
          "A force on a body until it is set again or released; one pull for each page", "nothing"},

@@ -28,6 +28,8 @@ constexpr double kStepSeconds = 0.03;  // of real time that one call may step
 constexpr double kMostOwed = 0.1;      // [s] that a pause of the machine may be made up for
 constexpr double kRateWindow = 0.5;    // [s]
 constexpr std::size_t kMostContacts = 1000;
+constexpr std::size_t kMostBodies = 256;  // whose velocities are told
+constexpr std::size_t kMostEvents = 50;
 constexpr int kLooksBeforeTold = 4;  // a fault that is there for a second is no passing one
 
 Json engines_json() {
@@ -54,6 +56,17 @@ Json opening_json(const Diagnostics& opening) {
   for (const Diagnostic& finding : opening) {
     if (rows.size() < kMost) {
       rows.push_back(answers::diagnostic_json(finding));
+    }
+  }
+  return rows;
+}
+
+Json events_json(const LiveAsset& asset) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; asset.world && i < asset.world->events().size(); ++i) {
+    const engines::Event& event = asset.world->events()[i];
+    if (i < kMostEvents) {
+      rows.push_back({{"time", event.time}, {"prim", event.prim.str()}, {"what", event.what}});
     }
   }
   return rows;
@@ -124,6 +137,31 @@ Json Session::State::scene_notice(const char* why) const {
           {"canRedo", history.can_redo()}};
 }
 
+Json Session::State::targets_json() const {
+  Json rows = Json::array();
+  for (const scene::Joint& joint : asset.scene().joints) {
+    Json row = Json::array();
+    for (scene::Index drive = 0; drive < joint.drives.size(); ++drive) {
+      const auto known = targets.find(std::make_pair(joint.path, drive));
+      const scene::Drive& own = joint.drives[drive];
+      const auto target = known == targets.end()
+                              ? engines::DriveTarget{own.target_position, own.target_velocity}
+                              : known->second;
+      row.push_back({target.position, target.velocity});
+    }
+    rows.push_back(std::move(row));
+  }
+  for (const scene::ScalarTrack& track : asset.scene().scalar_tracks) {
+    const Path joint = asset.scene().joints[track.joint].path;
+    const bool is_position = track.what == scene::Animated::DriveTargetPosition;
+    const bool is_target = is_position || track.what == scene::Animated::DriveTargetVelocity;
+    if (is_target && asset.world && !targets.contains(std::make_pair(joint, track.drive))) {
+      rows[track.joint][track.drive][is_position ? 0 : 1] = track.at(asset.world->time());
+    }
+  }
+  return rows;
+}
+
 Json Session::State::state_notice() const {
   return {{"is", "state"},
           {"playing", playing},
@@ -132,6 +170,7 @@ Json Session::State::state_notice() const {
           {"rate", playing ? rate : 0.0},
           {"contacts", asset.world ? asset.world->contact_count() : 0},
           {"pulled", pulls.count()},
+          {"events", events_json(asset)},
           {"stopped", finding_or_null(stopped)},
           {"outdated", finding_or_null(outdated)}};
 }
@@ -155,6 +194,10 @@ void Session::State::tell_observers(Outbox& out) const {
     tell_each(&Client::plots, {{"is", "plots"},
                                {"time", asset.world->time()},
                                {"joints", positions_json(asset)},
+                               {"velocities", velocities_json(asset)},
+                               {"efforts", efforts_json(asset)},
+                               {"targets", targets_json()},
+                               {"bodies", body_velocities_json(asset, kMostBodies)},
                                {"kinetic", energy.kinetic},
                                {"potential", energy.potential}});
   }

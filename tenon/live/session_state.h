@@ -87,6 +87,7 @@ class Session::State {
 
   Json scene_notice(const char* why) const;
   Json state_notice() const;
+  Json targets_json() const;
   void tell(ClientNumber to, const Json& message, Outbox& out) const;
   void tell_answer(ClientNumber to, const std::string& request, const Json& id, Result<Json> result,
                    Outbox& out) const;

@@ -367,6 +367,26 @@ TEST_F(SessionTest, TellsObservers) {
   EXPECT_FALSE(told_.contains("contacts"));
 }
 
+TEST_F(SessionTest, TellsVelocitiesEffortsAndTargets) {
+  ask({{"do", "observe"}, {"plots", true}});
+  ask({{"do", "setDrive"}, {"joint", "/Arm/hinge"}, {"position", -0.5}});
+  ask({{"do", "setEffort"}, {"joint", "/Arm/hinge"}, {"effort", {0.5}}});
+  ask({{"do", "step"}, {"count", 20}});
+  const Json& plots = told_["plots"];
+  const auto& world = *session_->asset().world;
+  EXPECT_EQ(plots["velocities"][0][0], world.joint_state(0).velocity[0]);
+  EXPECT_NE(plots["velocities"][0][0], 0.0);
+  EXPECT_EQ(plots["efforts"].size(), plots["joints"].size());
+  EXPECT_EQ(plots["bodies"].size(), session_->asset().scene().bodies.size());
+  EXPECT_EQ(plots["bodies"][0].size(), 6u);
+  EXPECT_EQ(told_["state"]["events"], Json::array());
+  EXPECT_EQ(plots["targets"][0][0][0], -0.5);
+  EXPECT_EQ(plots["efforts"][0].size(), 1u);
+  EXPECT_EQ(ask({{"do", "setEffort"}, {"joint", "/Arm/hinge"}, {"effort", {1, 2}}}),
+            "live.refused");
+  EXPECT_EQ(ask({{"do", "step"}, {"count", 1001}}), "live.bad-field");
+}
+
 TEST_F(SessionTest, SelectsVariantsAndEngines) {
   EXPECT_EQ(ask({{"do", "variant"}, {"prim", "/Arm"}, {"set", "Load"}, {"variant", "heavy"}}),
             Json::object());

@@ -209,7 +209,10 @@ void serve_connection(Hub& hub, asio::ip::tcp::socket socket) {
   beast::error_code ignored;
   if (hub.connections >= hub.options.limits.connections) {
     constexpr std::string_view kFull =
-        "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\n\r\n";
+        "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n"
+        "Content-Type: text/plain; charset=utf-8\r\nContent-Length: 96\r\n\r\n"
+        "Too many connections to tenon view are open. Close some of its pages, then load this one "
+        "again.\n";
     socket.non_blocking(true, ignored);
     socket.write_some(asio::buffer(kFull.data(), kFull.size()), ignored);
     socket.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);

@@ -244,6 +244,7 @@ class Messages(unittest.TestCase):
                              if one["drives"] and one["dofs"] and not one["follows"])
                 do("setDrive", joint=joint["path"], position=0.1)
                 do("setJoint", joint=joint["path"], position=joint["position"])
+                do("setEffort", joint=joint["path"], effort=[0.01])
                 row = scene["variants"][0]
                 do("variant", prim=row["prim"], set=row["set"], variant=row["selection"])
                 attribute = joint["path"] + ".physics:upperLimit"
@@ -251,7 +252,8 @@ class Messages(unittest.TestCase):
                 do("undo")
                 do("redo")
                 do("clear", object=attribute)
-                client.refused("step", count=5000)
+                told = client.ask("step", count=5000)["error"]["message"]
+                self.assertIn("from 0 to 1000", told)
                 asset.write_text("no layer")
                 client.ask("set", object=attribute, value="45")
                 tables = client.done("messages")

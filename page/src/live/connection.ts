@@ -36,6 +36,8 @@ export interface LiveJoint {
   kind: string;
   enabled: boolean;
   follows: boolean;
+  /** The joint that it follows. */
+  leader: string | null;
   dofs: LiveDof[];
   position: number[];
   drives: LiveDrive[];
@@ -64,6 +66,7 @@ export interface StateNotice {
   rate: number;
   contacts: number;
   pulled: number;
+  events: { time: number; prim: string; what: string }[];
   /** The step that failed; poses stay until a reset. */
   stopped: Finding | null;
   /** Why changed files cannot be opened: what is shown is older than they are. */
@@ -73,14 +76,32 @@ export interface StateNotice {
 export interface PlotsNotice {
   time: number;
   joints: number[][];
+  velocities: number[][];
+  /** Of each joint those of its drives; null: the engine does not tell. */
+  efforts: (number[] | null)[];
+  /** Of each drive of each joint position and velocity. */
+  targets: [number, number][][];
+  /** Linear and angular velocity of the first bodies. */
+  bodies: number[][];
   kinetic: number;
   potential: number;
+}
+
+export interface ContactRow {
+  collider0: string;
+  collider1: string;
+  body0: string | null;
+  body1: string | null;
+  point: [number, number, number];
+  normal: [number, number, number];
+  depth: number;
+  force: [number, number, number];
 }
 
 export interface ContactsNotice {
   time: number;
   count: number;
-  rows: { point: [number, number, number]; force: [number, number, number] }[];
+  rows: ContactRow[];
 }
 
 export interface HelloNotice {
@@ -124,6 +145,7 @@ export class Connection extends EventTarget {
         return;
       }
       const id = ++this.number;
+      this.tell("asking", name);
       this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject });
       this.socket.send(JSON.stringify({ do: name, id, ...fields }));
     });

@@ -61,11 +61,19 @@ export class Details {
       this.time = notice.time;
     });
     session.connection.on<SceneNotice>("scene", ({ why }) => {
+      if (why === "undo" || why === "redo") {
+        session.messages.say(why === "undo" ? "The last edit was taken back." : "The edit was made again.");
+      }
       if (why !== "edit" && why !== "reset" && why !== "engine" && this.effect) {
         this.effect = null; // it is no longer so
         session.panel.inspector.update();
       }
     });
+    session.connection.on("closed", () => {
+      const fields = session.panel.inspector.element.querySelectorAll<HTMLInputElement>(".editor input, .editor button");
+      fields.forEach((field) => (field.disabled = true));
+    });
+    session.connection.on("open", () => session.panel.inspector.update());
     session.panel.inspector.addSource((path) => this.properties(path));
   }
 

@@ -1,13 +1,20 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What tenon check finds; a finding selects its prim.
+// What tenon check finds, asked for when the asset was opened or has changed. Findings of one rule
+// stand together; a finding selects its prim, and its place can be copied.
 import { h, nameOf } from "../panel/dom";
 import type { Finding, SceneNotice } from "./connection";
 import { type Session, attempt } from "./session";
+import { grouped } from "./signals";
 
 /** What is worst comes first. */
 const rank = (finding: Finding): number => ["error", "warning", "info"].indexOf(finding.severity);
+
+/** Scenes with more prims are checked when somebody asks for it. */
+const mostAtOnce = 20_000;
+/** More of one rule are folded. */
+const mostOfRule = 3;
 
 const count = (findings: Finding[], severity: string): string => {
   const found = findings.filter((one) => one.severity === severity).length;
@@ -17,32 +24,80 @@ const count = (findings: Finding[], severity: string): string => {
 export class Findings {
   private readonly page: HTMLElement;
   private readonly list = h("div");
+  private readonly filter: HTMLInputElement;
+  private found: Finding[] = [];
+  private title = "";
+  private looked = false;
+  private asked = 0;
 
   constructor(private readonly session: Session) {
     this.page = session.panel.addTab("Findings");
     const look = h("button", { type: "button", onclick: () => void this.look() }, "Check the asset");
-    this.page.append(look, this.list);
+    this.filter = h("input", {
+      type: "search",
+      placeholder: "Filter by text, rule or severity",
+      "aria-label": "Filter findings",
+      oninput: () => this.update(),
+    });
+    this.page.append(look, " ", this.filter, this.list);
+    let changed = false;
     session.connection.on<SceneNotice>("scene", (scene) => {
       if (scene.why !== "reset" && scene.why !== "engine") {
         this.show(scene.opening, "While it was opened:");
+        changed = true;
       }
+    });
+    session.panel.viewer.addEventListener("load", () => {
+      if (changed && session.panel.tree.size < mostAtOnce) {
+        void this.look();
+      }
+      changed = false;
     });
   }
 
   private async look(): Promise<void> {
+    const number = ++this.asked;
     this.list.replaceChildren(h("p", { role: "status" }, "Looking..."));
     const answer = await attempt<{ diagnostics: Finding[] }>(this.session, "findings");
+    if (number !== this.asked) {
+      return; // another check has begun
+    }
     const found = answer?.diagnostics ?? [];
     const counts = ["error", "warning", "info"].map((severity) => count(found, severity)).join(", ");
     this.show(found, answer ? `Found: ${counts}.` : "It could not be checked.", answer !== null);
   }
 
   private show(findings: Finding[], title: string, looked = false): void {
-    const sorted = [...findings].sort((a, b) => rank(a) - rank(b));
-    const items = sorted.map((finding) => this.item(finding));
-    const none = looked && items.length === 0 ? [h("p", {}, "Nothing to find fault with.")] : [];
-    const head = title && (items.length > 0 || looked) ? [h("p", {}, title)] : [];
-    this.list.replaceChildren(...head, ...none, h("ul", { class: "findings" }, ...items));
+    this.found = [...findings].sort((a, b) => rank(a) - rank(b));
+    this.title = title;
+    this.looked = looked;
+    this.update();
+  }
+
+  private update(): void {
+    const words = this.filter.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    const shown = this.found.filter((one) => {
+      const text = `${one.severity} ${one.rule ?? ""} ${one.message} ${one.prim ?? ""}`.toLowerCase();
+      return words.every((word) => text.includes(word));
+    });
+    const groups = grouped(shown, (one) => `${one.severity} ${one.rule ?? one.message}`);
+    const items = [...groups.values()].flatMap((group) => this.group(group));
+    const none = this.looked && this.found.length === 0 ? [h("p", {}, "Nothing to find fault with.")] : [];
+    const head = this.title && (this.found.length > 0 || this.looked) ? [h("p", {}, this.title)] : [];
+    const left = this.found.length - shown.length;
+    const more = left > 0 ? [h("p", {}, `${left} do not match the filter.`)] : [];
+    this.list.replaceChildren(...head, ...none, h("ul", { class: "findings" }, ...items), ...more);
+  }
+
+  /** Findings of one rule: folded where they are many. */
+  private group(findings: Finding[]): HTMLElement[] {
+    const [first] = findings;
+    if (!first || findings.length <= mostOfRule) {
+      return findings.map((one) => this.item(one));
+    }
+    const title = [h("strong", {}, first.severity), ` ${findings.length} x ${first.message} `, h("code", {}, first.rule ?? "")];
+    const all = h("ul", { class: "findings" }, ...findings.map((one) => this.item(one)));
+    return [h("li", { class: `finding-group finding-of ${first.severity}` }, h("details", {}, h("summary", {}, ...title), all))];
   }
 
   private item(finding: Finding): HTMLElement {
@@ -66,7 +121,11 @@ export class Findings {
     }
     if (finding.file) {
       const line = finding.line ? `:${finding.line}` : "";
-      item.append(h("div", {}, h("small", {}, `${finding.file}${line}`)));
+      const place = `${finding.file}${line}`;
+      const copy = () => void navigator.clipboard?.writeText(place).then(() => this.session.messages.say(`Copied ${place}.`));
+      item.append(
+        h("div", {}, h("small", {}, place), " ", h("button", { type: "button", class: "link", onclick: copy, "aria-label": `Copy ${place}` }, "Copy")),
+      );
     }
     if (finding.fix) {
       item.append(h("div", {}, `To mend it: ${finding.fix}.`));

@@ -7,25 +7,46 @@
 import { nameOf } from "../panel/dom";
 import { Panel } from "../panel/panel";
 import { Viewer } from "../scene/viewer";
-import { Connection, type ContactsNotice, type Finding, type HelloNotice, type SceneNotice } from "./connection";
+import { Address } from "./address";
+import {
+  Connection,
+  type ContactsNotice,
+  type Finding,
+  type HelloNotice,
+  type PlotsNotice,
+  type SceneNotice,
+  type StateNotice,
+} from "./connection";
 import { Details } from "./details";
+import { EventList } from "./event_list";
+import { Events } from "./events";
 import { Findings } from "./findings";
+import { History } from "./history";
 import { Messages } from "./messages";
 import { Move } from "./move";
 import { Plots } from "./plots";
 import { Prims } from "./prims";
 import { Pull } from "./pull";
+import { Save } from "./save";
 import { type Session, attempt } from "./session";
+import { Signals } from "./signals";
 import { Standing } from "./standing";
+import { Timeline } from "./timeline";
 import { Tools } from "./tools";
+import { Values } from "./values";
 
 class Picture {
   private revision = 0;
   private wanted = 0;
   private loading = false;
-  private frame: Float32Array | null = null;
 
-  constructor(private readonly session: Session) {}
+  constructor(
+    private readonly session: Session,
+    private readonly history: History,
+  ) {
+    history.addEventListener("frame", () => history.shown === null && this.pose());
+    history.addEventListener("shown", () => this.pose());
+  }
 
   /** Fetches the picture of this number, unless it is the one that is shown. */
   async want(revision: number): Promise<void> {
@@ -44,32 +65,75 @@ class Picture {
       this.revision = number;
     }
     this.loading = false;
-    if (this.frame) {
-      this.pose(this.frame);
-    }
+    this.pose();
   }
 
-  pose(frame: Float32Array): void {
-    this.frame = frame;
-    const viewer = this.session.panel.viewer;
-    if (!this.loading && frame.length === 1 + 7 * viewer.bodies.length) {
+  /** Places bodies, and draws contacts, as at the moment that is shown. */
+  private pose(): void {
+    const { viewer } = this.session.panel;
+    const { frame, sample, shown } = this.history;
+    if (!this.loading && frame?.length === 1 + 7 * viewer.bodies.length) {
       viewer.setPoses(frame);
+    }
+    if (shown !== null) {
+      viewer.overlays.setContacts(sample?.contacts ?? new Float32Array());
     }
   }
 }
 
+/** What was simulated, and all that shows it. */
+function addTime(session: Session): History {
+  const history = new History();
+  const events = new Events();
+  const timeline = new Timeline(session, history, events);
+  const plots = new Plots(session, history, timeline);
+  new EventList(session, events, timeline);
+  const values = new Values(session, history);
+  new Save(session, history, plots, timeline);
+  new Address(session, history, plots);
+  const { connection, panel } = session;
+  let known = "";
+  connection.on<SceneNotice>("scene", (scene) => {
+    // A page that has only lost its connection keeps what it knows.
+    const now = JSON.stringify([scene.revision, scene.engine, scene.bodies.length, scene.joints.length]);
+    if (scene.why !== "open" || now !== known) {
+      history.begin(scene);
+      events.begin(scene);
+      const signals = new Signals(scene, history.layout);
+      plots.begin(signals);
+      values.begin(signals);
+    }
+    known = now;
+  });
+  connection.on<Float32Array>("frame", (frame) => history.addFrame(frame));
+  connection.on<PlotsNotice>("plots", (notice) => {
+    history.addPlots(notice);
+    events.hearPlots(notice);
+  });
+  connection.on<ContactsNotice>("contacts", (notice) => {
+    history.addContacts(notice);
+    events.hearContacts(notice);
+    if (history.shown === null) {
+      panel.viewer.overlays.setContacts(history.sample?.contacts ?? new Float32Array());
+    }
+  });
+  connection.on<StateNotice>("state", (state) => events.hearState(state));
+  return history;
+}
+
 function main(): void {
+  document.querySelector(".starting")?.remove();
   const panel = new Panel(document.body, (place) => new Viewer(place));
   const address = new URL("ws", location.href);
   address.protocol = location.protocol.replace("http", "ws");
   const session: Session = { panel, connection: new Connection(address.href), messages: new Messages() };
-  const picture = new Picture(session);
   const { connection, messages } = session;
+  const history = addTime(session);
+  const picture = new Picture(session, history);
   new Tools(session);
   panel.foot.append(messages.element);
   new Move(session);
   new Findings(session);
-  new Plots(session);
   new Details(session);
   new Pull(session);
   new Prims(session);
@@ -88,8 +152,6 @@ function main(): void {
       messages.complain(wrong);
     }
   });
-  connection.on<Float32Array>("frame", (frame) => picture.pose(frame));
-  connection.on<ContactsNotice>("contacts", (notice) => panel.viewer.overlays.setContacts(notice.rows));
   connection.on<{ problem: Finding }>("problem", (notice) => messages.complain(notice.problem));
   connection.on("closed", () =>
     messages.complain(
@@ -100,7 +162,7 @@ function main(): void {
     messages.element.replaceChildren();
     void attempt(session, "observe", { contacts: true, plots: true });
   });
-  Object.assign(window, { tenonPage: { panel, viewer: panel.viewer, session } });
+  Object.assign(window, { tenonPage: { panel, viewer: panel.viewer, session, history } });
 }
 
 main();

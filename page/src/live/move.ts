@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sliders. While time stands still they move joints by hand; while it goes on, and for joints with
-// drives, they say what the drive is to reach. One request is under way at a time for each slider,
+// drives, they say what the drive is to reach: a position, a velocity. Beside each is a field for the
+// same number. One request is under way at a time for each slider,
 // and the newest value follows it.
-import { h, nameOf } from "../panel/dom";
+import { h } from "../panel/dom";
+import { pathButton } from "../panel/joints";
 import type { LiveDof, LiveJoint, PlotsNotice, SceneNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
@@ -36,26 +38,125 @@ class Sender {
   }
 }
 
-/** Hundredths of a degree or millimetre: what is less is no motion that one sees. */
-const shown = (dof: LiveDof, value: number): string => {
-  const rounded = Math.round(value * (dof.angular ? degrees : 1000) * 100) / 100 + 0;
-  return `${rounded} ${dof.angular ? "deg" : "mm"}`;
+/** What a slider stands for: the unit that people read, and how many of it are one of SI. */
+interface Scale {
+  unit: string;
+  factor: number;
+}
+
+const lengths: Scale = { unit: "mm", factor: 1000 };
+const scaleOf = (dof: LiveDof, what: "position" | "velocity" | "effort"): Scale => {
+  if (what === "effort") {
+    return { unit: dof.angular ? "N m" : "N", factor: 1 };
+  }
+  const { unit, factor } = dof.angular ? { unit: "deg", factor: degrees } : lengths;
+  return what === "velocity" ? { unit: `${unit}/s`, factor } : { unit, factor };
 };
+
+/** Hundredths of a degree or millimetre: what is less is no motion that one sees. */
+const rounded = ({ factor }: Scale, value: number): number => {
+  const places = factor === 1 ? 1e4 : 100;
+  return Math.round(value * factor * places) / places + 0;
+};
+
+interface Row {
+  what: string;
+  scale: Scale;
+  value: number;
+  lower: number | null;
+  upper: number | null;
+  /** Half of what is offered where there is no limit. */
+  open: number;
+  send: (value: number) => Promise<unknown>;
+}
+
+/** A slider and a field for the same number. */
+class Slider {
+  readonly element: HTMLElement;
+  readonly input: HTMLInputElement;
+  private readonly field: HTMLInputElement;
+
+  constructor(private readonly row: Row, disabled = false) {
+    const { what, scale, value, open } = row;
+    const lower = row.lower ?? Math.min(-open, value - open);
+    const upper = row.upper ?? Math.max(open, value + open);
+    const sender = new Sender(row.send);
+    this.input = h("input", {
+      type: "range",
+      min: Math.min(lower, upper),
+      max: Math.max(lower, upper),
+      step: "any",
+      value,
+      disabled,
+      oninput: () => {
+        this.field.value = String(rounded(scale, Number(this.input.value)));
+        sender.put(Number(this.input.value));
+      },
+    });
+    this.field = h("input", {
+      type: "number",
+      step: "any",
+      value: rounded(scale, value),
+      disabled,
+      "aria-label": `${what} in ${scale.unit}`,
+      onchange: () => {
+        const wanted = Number(this.field.value) / scale.factor;
+        if (this.field.value !== "" && Number.isFinite(wanted)) {
+          this.cover(wanted);
+          this.input.value = String(wanted);
+          sender.put(wanted);
+        }
+      },
+    });
+    // Beside each other: a label names one control alone.
+    this.element = h(
+      "div",
+      { class: "slider" },
+      h("label", {}, h("span", {}, what), this.input),
+      h("span", { class: "field" }, this.field, h("span", { class: "unit" }, scale.unit)),
+    );
+  }
+
+  /** A value that came, unless it is being set here. */
+  show(value: number): void {
+    const { activeElement } = document;
+    if (activeElement !== this.input && activeElement !== this.field) {
+      this.cover(value);
+      this.input.value = String(value);
+      this.field.value = String(rounded(this.row.scale, value));
+    }
+  }
+
+  /** Where there is no limit, the slider reaches as far as what it shows. */
+  private cover(value: number): void {
+    const { lower, upper } = this.row;
+    if (upper === null && value > Number(this.input.max)) {
+      this.input.max = String(value);
+    }
+    if (lower === null && value < Number(this.input.min)) {
+      this.input.min = String(value);
+    }
+  }
+}
 
 export class Move {
   private readonly page: HTMLElement;
-  private sliders: { input: HTMLInputElement; text: HTMLElement; dof: LiveDof; at: [number, number] }[] =
-    [];
+  private positions: { slider: Slider; at: [number, number] }[] = [];
+  private targets: { slider: Slider; at: [number, number, 0 | 1] }[] = [];
   private joints: LiveJoint[] = [];
 
   constructor(private readonly session: Session) {
     this.page = session.panel.addTab("Move");
     session.connection.on<SceneNotice>("scene", (scene) => this.build(scene));
     session.connection.on<PlotsNotice>("plots", (plots) => this.follow(plots));
+    session.connection.on("closed", () =>
+      this.page.querySelectorAll("input").forEach((input) => (input.disabled = true)),
+    );
   }
 
   private build(scene: SceneNotice): void {
-    this.sliders = [];
+    this.positions = [];
+    this.targets = [];
     this.joints = scene.joints;
     const rows: HTMLElement[] = [];
     scene.joints.forEach((joint, index) => {
@@ -73,78 +174,91 @@ export class Move {
   }
 
   private row(joint: LiveJoint, index: number): HTMLElement {
-    const title = h(
-      "button",
-      { type: "button", class: "link", title: joint.path, onclick: () => this.session.panel.viewer.select(joint.path) },
-      nameOf(joint.path),
+    const { viewer } = this.session.panel;
+    const row = h(
+      "section",
+      { class: "mover", "data-joint": joint.path },
+      h("h3", {}, pathButton(viewer, joint.path)),
     );
-    const row = h("section", { class: "mover", "data-joint": joint.path }, h("h3", {}, title));
     if (joint.follows) {
-      row.append(h("p", { class: "status" }, "follows another joint"));
+      const leader = joint.leader ? pathButton(viewer, joint.leader) : "another joint";
+      row.append(h("p", { class: "status" }, "follows ", leader, ", which moves it"));
     }
     joint.dofs.forEach((dof, k) => {
       const values = joint.position;
-      row.append(
-        this.slider("position", dof, joint.position[k] ?? 0, [index, k], (value) => {
-          values[k] = value;
-          return attempt(this.session, "setJoint", { joint: joint.path, position: values });
-        }),
-      );
+      const slider = this.slider(dof, "position", "position", joint.position[k] ?? 0, joint.follows, (value) => {
+        values[k] = value;
+        return attempt(this.session, "setJoint", { joint: joint.path, position: values });
+      });
+      this.positions.push({ slider, at: [index, k] });
+      row.append(slider.element);
     });
-    joint.drives.forEach((drive, k) => {
-      const dof = joint.dofs.find((one) => one.dof === drive.dof);
-      if (dof && drive.stiffness > 0) {
-        row.append(
-          this.slider("drive to", dof, drive.position, null, (position) =>
-            attempt(this.session, "setDrive", { joint: joint.path, drive: k, position }),
-          ),
-        );
-      }
-    });
+    joint.drives.forEach((_, k) => row.append(...this.driveRows(joint, index, k)));
+    if (!joint.follows) {
+      row.append(this.effortRows(joint));
+    }
     return row;
   }
 
-  private slider(
-    what: string,
-    dof: LiveDof,
-    value: number,
-    at: [number, number] | null,
-    send: (value: number) => Promise<unknown>,
-  ): HTMLElement {
-    const open = dof.angular ? Math.PI : 0.5;
-    const lower = dof.lower ?? Math.min(-open, value - open);
-    const upper = dof.upper ?? Math.max(open, value + open);
-    const sender = new Sender(send);
-    const text = h("output", { class: "number" }, shown(dof, value));
-    const input: HTMLInputElement = h("input", {
-      type: "range",
-      min: Math.min(lower, upper),
-      max: Math.max(lower, upper),
-      step: "any",
-      value,
-      oninput: () => {
-        text.textContent = shown(dof, Number(input.value));
-        sender.put(Number(input.value));
-      },
-    });
-    if (at) {
-      this.sliders.push({ input, text, dof, at });
+  /** What a drive is to reach: a position where it has stiffness, a velocity where it has damping. */
+  private driveRows(joint: LiveJoint, index: number, k: number): HTMLElement[] {
+    const drive = joint.drives[k]!;
+    const dof = joint.dofs.find((one) => one.dof === drive.dof);
+    const rows: HTMLElement[] = [];
+    const set = (field: "position" | "velocity") => (value: number) =>
+      attempt(this.session, "setDrive", { joint: joint.path, drive: k, [field]: value });
+    if (dof && drive.stiffness > 0) {
+      const slider = this.slider(dof, "position", "drive to", drive.position, false, set("position"));
+      this.targets.push({ slider, at: [index, k, 0] });
+      rows.push(slider.element);
     }
-    return h("label", { class: "slider" }, h("span", {}, `${what} ${dof.dof}`), input, text);
+    if (dof && drive.damping > 0) {
+      const slider = this.slider(dof, "velocity", "drive at", drive.velocity, false, set("velocity"));
+      this.targets.push({ slider, at: [index, k, 1] });
+      rows.push(slider.element);
+    }
+    return rows;
   }
 
-  /** Positions as they are while time goes on. */
+  /** Efforts on top of drives; closed until somebody wants them. */
+  private effortRows(joint: LiveJoint): HTMLElement {
+    const efforts = joint.dofs.map(() => 0);
+    const rows = joint.dofs.map((dof, k) =>
+      this.slider(dof, "effort", "push with", 0, false, (value) => {
+        efforts[k] = value;
+        return attempt(this.session, "setEffort", { joint: joint.path, effort: efforts });
+      }).element,
+    );
+    return h("details", {}, h("summary", {}, "Effort"), ...rows);
+  }
+
+  private slider(
+    dof: LiveDof,
+    kind: "position" | "velocity" | "effort",
+    what: string,
+    value: number,
+    disabled: boolean,
+    send: (value: number) => Promise<unknown>,
+  ): Slider {
+    const open = { position: dof.angular ? Math.PI : 0.5, velocity: dof.angular ? 2 * Math.PI : 1, effort: 10 }[kind];
+    const [lower, upper] = kind === "position" ? [dof.lower, dof.upper] : [null, null];
+    const row = { what: `${what} ${dof.dof}`, scale: scaleOf(dof, kind), value, lower, upper, open, send };
+    return new Slider(row, disabled);
+  }
+
+  /** Positions and targets as they are while time goes on. */
   private follow(plots: PlotsNotice): void {
-    for (const { input, text, dof, at } of this.sliders) {
+    for (const { slider, at } of this.positions) {
       const value = plots.joints[at[0]]?.[at[1]];
-      if (value !== undefined && document.activeElement !== input) {
-        input.value = String(value);
-        text.textContent = shown(dof, value);
-        const joint = this.joints[at[0]];
-        if (joint) {
-          joint.position[at[1]] = value;
-        }
+      const joint = this.joints[at[0]];
+      if (value !== undefined && joint) {
+        slider.show(value);
+        joint.position[at[1]] = value;
       }
+    }
+    for (const { slider, at } of this.targets) {
+      const value = plots.targets[at[0]]?.[at[1]]?.[at[2]];
+      value !== undefined && slider.show(value);
     }
   }
 }

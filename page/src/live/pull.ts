@@ -74,15 +74,7 @@ export class Pull {
     }
     event.stopPropagation();
     const viewer = this.session.panel.viewer;
-    const box = viewer.renderer.domElement.getBoundingClientRect();
-    const ray = new THREE.Raycaster();
-    ray.setFromCamera(
-      new THREE.Vector2(
-        ((event.clientX - box.left) / box.width) * 2 - 1,
-        1 - ((event.clientY - box.top) / box.height) * 2,
-      ),
-      viewer.camera,
-    );
+    const ray = viewer.rayAt(event.clientX, event.clientY);
     const target = ray.ray.intersectPlane(this.plane, new THREE.Vector3());
     if (target) {
       this.line.geometry.setFromPoints([this.body.localToWorld(this.anchor.clone()), target]);

@@ -52,7 +52,12 @@ export class Tools {
     });
     session.connection.on<SceneNotice>("scene", (notice) => this.showScene(notice));
     session.connection.on<StateNotice>("state", (notice) => this.showState(notice));
-    session.connection.on("closed", () => this.movers.forEach((button) => (button.disabled = true)));
+    session.connection.on("closed", () => {
+      const menus = Array.from(this.variants.querySelectorAll("select"));
+      [...this.movers, this.undo, this.redo, this.speed, this.engine, ...menus].forEach(
+        (control) => (control.disabled = true),
+      );
+    });
     this.addKeys();
   }
 
@@ -88,6 +93,8 @@ export class Tools {
     for (const button of this.movers) {
       button.disabled = !scene.simulates;
     }
+    this.speed.disabled = false;
+    this.engine.disabled = false;
     this.undo.disabled = !scene.canUndo;
     this.redo.disabled = !scene.canRedo;
     this.engine.replaceChildren(

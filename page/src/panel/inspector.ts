@@ -9,6 +9,11 @@ import { driveText, pathButton, rangeText } from "./joints";
 
 export type InspectorSource = (path: string) => Node | Promise<Node | null> | null;
 
+/** Of a volume [m3], in a unit in which it is no number of many digits. */
+export function volumeText(volume: number): string {
+  return volume >= 0.01 ? `${figure(volume, 4)} m3` : `${figure(volume * 1e6, 4)} cm3`;
+}
+
 export class Inspector {
   readonly element = h("div", { class: "inspector", "aria-live": "polite" });
   private readonly sources: InspectorSource[] = [];
@@ -32,7 +37,7 @@ export class Inspector {
       );
       return;
     }
-    this.element.replaceChildren(h("h2", {}, path));
+    this.element.replaceChildren(...[this.several(), h("h2", {}, path)].filter((one) => one !== null));
     for (const source of this.sources) {
       const place = h("div");
       this.element.append(place);
@@ -48,6 +53,28 @@ export class Inspector {
     const parts = [this.body(path), this.joint(path), ...this.colliders(path)];
     const known = parts.filter((part): part is HTMLElement => part !== null);
     return h("div", {}, ...(known.length > 0 ? known : [h("p", {}, "A prim without physics.")]));
+  }
+
+  /** What is to be said of several prims together; null: one is selected. */
+  private several(): HTMLElement | null {
+    const all = this.viewer.selection();
+    if (all.length < 2) {
+      return null;
+    }
+    const { info, bodies } = this.viewer;
+    const chosen = info.bodies.flatMap((body, i) => (all.includes(body.path) ? [{ body, node: bodies[i] }] : []));
+    const rows: [string, string | Node][] = all.map((path) => ["", pathButton(this.viewer, path)]);
+    if (chosen.length > 0) {
+      const mass = chosen.reduce((sum, one) => sum + one.body.mass, 0);
+      rows.unshift(["mass together", `${figure(mass)} kg`]);
+    }
+    if (chosen.length === 2) {
+      const [one, other] = chosen.map(({ body, node }) =>
+        node!.localToWorld(node!.position.clone().fromArray(body.centerOfMass)),
+      );
+      rows.unshift(["between centres of mass", `${figure(one!.distanceTo(other!) * 1000)} mm`]);
+    }
+    return this.facts(`${all.length} selected`, rows);
   }
 
   private facts(title: string, rows: [string, string | Node][]): HTMLElement {
@@ -75,7 +102,7 @@ export class Inspector {
       }
     }
     const apart = info.filteredPairs.filter((pair) => pair.includes(index)).length;
-    rows.push(["does not touch", `${apart} bodies`]);
+    rows.push(["does not touch", `${apart} ${apart === 1 ? "body" : "bodies"}`]);
     for (const collider of info.colliders) {
       if (collider.body === index && collider.path !== path) {
         rows.push(["collider", pathButton(this.viewer, collider.path)]);
@@ -103,7 +130,7 @@ export class Inspector {
       rows.push(["axis", joint.axis]);
     }
     rows.push(["range", joint.limits.map(rangeText).join("; ") || "free"]);
-    rows.push(["drive (SI)", driveText(joint) || "none"]);
+    rows.push(["drive", driveText(joint) || "none"]);
     if (!joint.enabled) {
       rows.push(["enabled", "no"]);
     }
@@ -118,13 +145,13 @@ export class Inspector {
     return of.map((collider) => {
       const rows: [string, string | Node][] = [
         ["shape", collider.kind],
-        ["volume", `${figure(collider.volume * 1e6, 4)} cm3`],
+        ["volume", volumeText(collider.volume)],
       ];
       if (collider.approximation) {
         rows.push(["asked for", collider.approximation]);
       }
       if (collider.sourceVolume !== null) {
-        rows.push(["volume of the mesh", `${figure(collider.sourceVolume * 1e6, 4)} cm3`]);
+        rows.push(["volume of the mesh", volumeText(collider.sourceVolume)]);
       }
       if (collider.hullGap !== null) {
         rows.push(["holds more by", `${figure(collider.hullGap * 100, 3)} %`]);

@@ -19,11 +19,16 @@ export function rangeText(limit: LimitInfo): string {
   return `${shown(limit.lower, "-inf")} to ${shown(limit.upper, "inf")} ${angular ? "deg" : "mm"}`;
 }
 
+/** Gains with their units: angular ones are for radians. */
 export function driveText(joint: JointInfo): string {
   return joint.drives
     .map((drive) => {
-      const gains = `${figure(drive.stiffness, 4)} / ${figure(drive.damping, 4)}`;
-      return drive.maxForce === null ? gains : `${gains}, at most ${figure(drive.maxForce, 4)}`;
+      const angular = drive.dof.startsWith("rot");
+      const [stiffness, damping, force] = angular
+        ? ["N m/rad", "N m s/rad", "N m"]
+        : ["N/m", "N s/m", "N"];
+      const gains = `${figure(drive.stiffness, 4)} ${stiffness}, ${figure(drive.damping, 4)} ${damping}`;
+      return drive.maxForce === null ? gains : `${gains}, at most ${figure(drive.maxForce, 4)} ${force}`;
     })
     .join("; ");
 }
@@ -41,13 +46,20 @@ export function jointTable(viewer: Viewer): HTMLElement {
   if (joints.length === 0) {
     return h("p", {}, "This asset has no joints.");
   }
-  return table(
-    ["Joint", "Kind", "Range", "Drive: stiffness / damping (SI)"],
+  const made = table(
+    ["Joint", "Range", "Drive: stiffness, damping", "Now"],
     joints.map((joint) => [
-      pathButton(viewer, joint.path),
-      joint.kind,
+      h("div", {}, pathButton(viewer, joint.path), " ", h("small", {}, joint.kind)),
       joint.limits.map(rangeText).join("; ") || "free",
       driveText(joint) || "none",
+      "",
     ]),
   );
+  made.classList.add("joints");
+  joints.forEach((joint, i) => {
+    const cell = made.tBodies[0]!.rows[i]!.cells[3]!;
+    cell.classList.add("now");
+    cell.dataset.joint = joint.path;
+  });
+  return made;
 }

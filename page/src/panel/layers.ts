@@ -60,6 +60,8 @@ const layers: Layer[] = [
 export class Layers {
   readonly element = h("fieldset", { class: "layers" }, h("legend", {}, "What is shown"));
   private readonly boxes = new Map<string, HTMLInputElement>();
+  /** Called after a switch. */
+  onChange: () => void = () => {};
   private begun = false;
   private readonly rows = new Map<string, HTMLElement>();
 
@@ -69,7 +71,7 @@ export class Layers {
         type: "checkbox",
         name: layer.name,
         checked: layer.shown,
-        onchange: () => layer.set(this.viewer, box.checked),
+        onchange: () => this.set(layer.name, box.checked),
       });
       this.boxes.set(layer.name, box);
       const row = h(
@@ -114,7 +116,15 @@ export class Layers {
     if (layer && box) {
       box.checked = visible;
       layer.set(this.viewer, visible);
+      this.onChange();
     }
+  }
+
+  /** Names of those that are shown and of those that are not, where it is otherwise at first. */
+  changed(): { more: string[]; less: string[] } {
+    const others = layers.filter(({ name, shown }) => this.boxes.get(name)!.checked !== shown);
+    const names = (shown: boolean) => others.filter((one) => one.shown !== shown).map((one) => one.name);
+    return { more: names(true), less: names(false) };
   }
 
   /** A key for each switch that this page has. */

@@ -4,11 +4,14 @@
 // What stands around the picture: head, scene tree, tabs, and the bar of time. `live` and `report`
 // add tabs of their own.
 import type { Viewer } from "../scene/viewer";
+import { CameraMenu } from "./camera_menu";
 import { h } from "./dom";
 import { Inspector } from "./inspector";
 import { jointTable } from "./joints";
 import { Keys } from "./keys";
 import { Layers } from "./layers";
+import { Measure } from "./measure";
+import { PartsMenu } from "./parts_menu";
 import { TimeBar } from "./time_bar";
 import { Tree } from "./tree";
 
@@ -18,6 +21,9 @@ export class Panel {
   readonly layers: Layers;
   readonly timeBar: TimeBar;
   readonly keys = new Keys();
+  readonly camera: CameraMenu;
+  readonly parts: PartsMenu;
+  readonly measure: Measure;
   /** Left of the buttons in the head: for more of them. */
   readonly tools = h("div", { class: "tools", role: "toolbar", "aria-label": "Tools" });
   /** The picture, and what is said over it. */
@@ -38,14 +44,15 @@ export class Panel {
     const theme = h("button", { type: "button", onclick: () => this.switchTheme() }, "Dark or light");
     const frame = h(
       "button",
-      { type: "button", title: "F", onclick: () => this.viewer.frame(this.viewer.selected) },
+      { type: "button", title: "f", onclick: () => this.viewer.frame(this.viewer.selected) },
       "Look at it",
     );
+    const menus = h("div", { class: "tools", role: "toolbar", "aria-label": "Camera and parts" });
     const help = h("button", { type: "button", title: "?", onclick: () => this.keys.showHelp() }, "Keys");
     this.root = h(
       "div",
       { class: "app" },
-      h("header", {}, this.title, this.tools, frame, theme, help),
+      h("header", {}, this.title, menus, this.tools, frame, theme, help),
       left,
       h("main", { class: "middle" }, place, this.foot),
       right,
@@ -57,6 +64,11 @@ export class Panel {
     this.inspector = new Inspector(this.viewer);
     this.layers = new Layers(this.viewer);
     this.timeBar = new TimeBar(this.viewer);
+    this.camera = new CameraMenu(this.viewer);
+    this.parts = new PartsMenu(this.viewer);
+    this.measure = new Measure(this.viewer);
+    menus.append(this.camera.element, this.parts.element, this.measure.button);
+    place.append(h("div", { class: "notes" }, this.parts.note, this.measure.note));
     this.foot.append(this.timeBar.element);
     this.addTab("Selection", this.inspector.element);
     this.addTab("Show", this.layers.element);
@@ -101,13 +113,23 @@ export class Panel {
     return page;
   }
 
+  /** The name of the page that is open. */
+  get tab(): string {
+    return this.tabs.querySelector('[aria-selected="true"]')?.textContent ?? "";
+  }
+
+  /** Opens the page with a name; where there is none, nothing changes. */
   openTab(name: string): void {
+    if (!Array.from(this.tabs.children).some((tab) => tab.textContent === name)) {
+      return;
+    }
     for (const tab of Array.from(this.tabs.children) as HTMLElement[]) {
       const open = tab.textContent === name;
       tab.setAttribute("aria-selected", String(open));
       tab.tabIndex = open ? 0 : -1;
       document.getElementById(`${tab.id}-page`)!.hidden = !open;
     }
+    this.root.dispatchEvent(new CustomEvent("tenon-tab", { bubbles: true, detail: name }));
   }
 
   setTheme(theme: "light" | "dark"): void {
@@ -143,6 +165,9 @@ export class Panel {
       { key: ",", label: "A frame back", act: () => this.timeBar.step(-1 / 30), there: moves },
       { key: ".", label: "A frame forward", act: () => this.timeBar.step(1 / 30), there: moves },
       ...this.layers.shortcuts(),
+      ...this.camera.shortcuts(),
+      ...this.parts.commands(),
+      { key: "d", label: "Measure distances and angles", act: () => this.measure.toggle() },
     );
   }
 }

@@ -19,7 +19,7 @@ const mostOpened = 40; // children, of which a prim with more begins closed
 export class Tree {
   readonly element: HTMLElement;
   private readonly search: HTMLInputElement;
-  private readonly list = h("ul", { role: "tree", "aria-label": "Prims" });
+  private readonly list = h("ul", { role: "tree", "aria-label": "Prims", "aria-multiselectable": "true" });
   private readonly status = h("p", { role: "status", class: "status" });
   private readonly entries = new Map<string, Entry>();
   private top: Entry[] = [];
@@ -184,9 +184,13 @@ export class Tree {
     }
   }
 
-  private click(event: Event): void {
+  private click(event: MouseEvent): void {
     const item = (event.target as HTMLElement).closest<HTMLElement>("[role=treeitem]");
     if (!item) {
+      return;
+    }
+    if (event.ctrlKey || event.metaKey) {
+      this.viewer.selectAlso(item.dataset.path ?? "");
       return;
     }
     const was = this.viewer.selected === item.dataset.path;
@@ -218,7 +222,10 @@ export class Tree {
       End: () => go(items[items.length - 1]),
       ArrowRight: () => (isOpen ? go(items[at + 1]) : this.setOpen(item, true)),
       ArrowLeft: () => (isOpen ? this.setOpen(item, false) : go(parent)),
-      Enter: () => this.viewer.select(item.dataset.path ?? ""),
+      Enter: () =>
+        event.ctrlKey || event.metaKey
+          ? this.viewer.selectAlso(item.dataset.path ?? "")
+          : this.viewer.select(item.dataset.path ?? ""),
     };
     const action = actions[event.key];
     if (action) {
@@ -230,10 +237,11 @@ export class Tree {
 
   private markSelected(): HTMLElement | null {
     let marked: HTMLElement | null = null;
+    const all = new Set(this.viewer.selection());
     for (const item of Array.from(this.list.querySelectorAll<HTMLElement>("[role=treeitem]"))) {
-      const selected = item.dataset.path === this.viewer.selected && this.viewer.selected !== "";
-      item.setAttribute("aria-selected", String(selected));
-      marked = selected ? item : marked;
+      const path = item.dataset.path ?? "";
+      item.setAttribute("aria-selected", String(all.has(path)));
+      marked = path === this.viewer.selected ? item : marked;
     }
     return marked;
   }

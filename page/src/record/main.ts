@@ -71,7 +71,7 @@ class Recording {
     if (panel) {
       this.viewer = panel.viewer;
       this.layers = panel.layers;
-      this.viewer.renderer.setPixelRatio(oversampling);
+      this.viewer.setPixelRatio(oversampling);
       if (settings.background !== "transparent" && !settings.background.startsWith("#")) {
         panel.setTheme(settings.background as "light" | "dark");
       }
@@ -191,7 +191,7 @@ class Recording {
     document.body.style.margin = "0";
     document.body.append(place);
     this.viewer = new Viewer(place, { antialias: true, alpha: true, animated: false });
-    this.viewer.renderer.setPixelRatio(oversampling);
+    this.viewer.setPixelRatio(oversampling);
     this.layers = new Layers(this.viewer);
     const scene = new Blob(this.pieces as BlobPart[]);
     this.pieces = [];

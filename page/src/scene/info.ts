@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the scene of a GLB by tenon says beside its shapes: `extras.tenon`, docs/glb.md. Metres,
-// kilograms, radians; poses are [x, y, z, qx, qy, qz, qw].
+// What the scene of a GLB by tenon says beside its shapes: `extras.tenon`, which
+// tenon/glb/scene_extras.cpp writes. Metres, kilograms, radians; poses are
+// [x, y, z, qx, qy, qz, qw].
 
 export type Pose = [number, number, number, number, number, number, number];
 

@@ -17,13 +17,9 @@ export const overlayNames = [
   "filtered",
   "contacts",
 ] as const;
+/** What is laid over the picture without a switch: the mark of a selected joint. */
+type Laid = OverlayName | "selection";
 export type OverlayName = (typeof overlayNames)[number];
-
-/** A contact as it is drawn: a point and a force in the world's axes [m, N]. */
-export interface Contact {
-  point: [number, number, number];
-  force: [number, number, number];
-}
 
 const colors = {
   joints: 0xe0a020,
@@ -33,6 +29,7 @@ const colors = {
   tree: 0x2c9f6b,
   filtered: 0x888f98,
   contacts: 0xe0533a,
+  selection: 0x2f7fe0,
 };
 
 const axes = { X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1] } as const;
@@ -111,11 +108,14 @@ function limitRail(limit: LimitInfo, thickness: number): THREE.Object3D | null {
 }
 
 export class Overlays {
-  contacts: Contact[] = [];
+  /** Of each contact its point [m] and force [N], in the world's axes. */
+  contacts: Float32Array = new Float32Array();
   private contactsAreNew = false;
+  /** All of them in two draw calls: shafts and heads. */
+  private arrows: { shafts: THREE.InstancedMesh; heads: THREE.InstancedMesh } | null = null;
 
   private readonly shown = new Set<OverlayName>();
-  private readonly made = new Map<OverlayName, THREE.Object3D[]>();
+  private readonly made = new Map<Laid, THREE.Object3D[]>();
   private readonly moving = new Map<OverlayName, () => void>();
 
   constructor(private readonly viewer: Viewer) {}
@@ -156,6 +156,8 @@ export class Overlays {
   }
 
   selectionChanged(): void {
+    this.drop("selection");
+    this.selection();
     if (this.shown.has("filtered")) {
       this.drop("filtered");
       this.make("filtered");
@@ -163,7 +165,7 @@ export class Overlays {
   }
 
   /** Contacts of this moment: drawn with the next picture, since more of them may come before. */
-  setContacts(contacts: Contact[]): void {
+  setContacts(contacts: Float32Array): void {
     this.contacts = contacts;
     this.contactsAreNew = true;
     if (this.shown.has("contacts")) {
@@ -174,8 +176,7 @@ export class Overlays {
   /** Before a picture is drawn. */
   refresh(): void {
     if (this.contactsAreNew && this.shown.has("contacts")) {
-      this.drop("contacts");
-      this.make("contacts");
+      this.drawContacts();
     }
     this.contactsAreNew = false;
   }
@@ -184,7 +185,7 @@ export class Overlays {
     return this.viewer.sphere.radius;
   }
 
-  private add(name: OverlayName, parent: THREE.Object3D, object: THREE.Object3D): void {
+  private add(name: Laid, parent: THREE.Object3D, object: THREE.Object3D): void {
     object.traverse((part) => {
       part.userData.ofPage = true;
       part.renderOrder = 10;
@@ -196,7 +197,7 @@ export class Overlays {
     this.made.set(name, list);
   }
 
-  private drop(name: OverlayName): void {
+  private drop(name: Laid): void {
     for (const object of this.made.get(name) ?? []) {
       object.parent?.remove(object);
       object.traverse((part) => {
@@ -209,6 +210,14 @@ export class Overlays {
       });
     }
     this.made.delete(name);
+    if (name === "selection") {
+      return;
+    }
+    if (name === "contacts") {
+      this.arrows?.shafts.dispose();
+      this.arrows?.heads.dispose();
+      this.arrows = null;
+    }
     this.moving.delete(name);
   }
 
@@ -265,17 +274,21 @@ export class Overlays {
   private limits(): void {
     for (const joint of this.viewer.info.joints) {
       const frame = this.jointFrame(joint);
-      for (const limit of joint.limits) {
-        const sign = limit.dof.startsWith("rot")
-          ? limitArc(limit, this.size * 0.09)
-          : limit.dof.startsWith("trans")
-            ? limitRail(limit, this.size * 0.006)
-            : null;
-        if (sign) {
-          frame.add(sign);
-        }
-      }
+      this.addLimits(joint, frame);
       this.add("limits", this.nodeOf(joint.body0), frame);
+    }
+  }
+
+  private addLimits(joint: JointInfo, frame: THREE.Object3D): void {
+    for (const limit of joint.limits) {
+      const sign = limit.dof.startsWith("rot")
+        ? limitArc(limit, this.size * 0.09)
+        : limit.dof.startsWith("trans")
+          ? limitRail(limit, this.size * 0.006)
+          : null;
+      if (sign) {
+        frame.add(sign);
+      }
     }
   }
 
@@ -364,18 +377,71 @@ export class Overlays {
     update();
   }
 
+  /** How many arrows stand for contacts. */
+  get drawnContacts(): number {
+    return this.arrows?.shafts.count ?? 0;
+  }
+
   private drawContacts(): void {
-    const most = Math.max(1e-9, ...this.contacts.map((one) => Math.hypot(...one.force)));
-    for (const contact of this.contacts) {
-      const force = new THREE.Vector3(...contact.force);
-      const length = this.size * (0.04 + 0.26 * (force.length() / most));
-      const sign = arrow(length, this.size * 0.005, paint(colors.contacts));
-      sign.position.fromArray(contact.point);
-      if (force.lengthSq() > 0) {
-        sign.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), force.normalize());
+    const count = this.contacts.length / 6;
+    if (!this.arrows || this.arrows.shafts.instanceMatrix.count < count) {
+      this.drop("contacts");
+      const room = Math.max(16, 2 ** Math.ceil(Math.log2(count)));
+      const material = paint(colors.contacts);
+      this.arrows = {
+        shafts: new THREE.InstancedMesh(stick, material, room),
+        heads: new THREE.InstancedMesh(tip, material, room),
+      };
+      for (const mesh of Object.values(this.arrows)) {
+        mesh.frustumCulled = false;
+        this.add("contacts", this.viewer.root, mesh);
       }
-      this.add("contacts", this.viewer.root, sign);
     }
+    const { shafts, heads } = this.arrows;
+    const forces = Array.from({ length: count }, (_, i) => this.vector(6 * i + 3).length());
+    const most = forces.reduce((a, b) => Math.max(a, b), 1e-9);
+    const turn = new THREE.Quaternion();
+    const up = new THREE.Vector3(0, 1, 0);
+    const thickness = this.size * 0.005;
+    for (let i = 0; i < count; ++i) {
+      const length = this.size * (0.04 + 0.26 * (forces[i]! / most));
+      const way = forces[i]! > 0 ? this.vector(6 * i + 3).normalize() : up;
+      turn.setFromUnitVectors(up, way);
+      const at = this.vector(6 * i);
+      const put = (mesh: THREE.InstancedMesh, from: THREE.Vector3, wide: number, long: number) =>
+        mesh.setMatrixAt(i, new THREE.Matrix4().compose(from, turn, new THREE.Vector3(wide, long, wide)));
+      put(shafts, at, thickness, length * 0.82);
+      put(heads, at.clone().addScaledVector(way, length * 0.82), thickness * 2.6, length * 0.18);
+    }
+    for (const mesh of [shafts, heads]) {
+      mesh.count = count;
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  private vector(at: number): THREE.Vector3 {
+    return new THREE.Vector3().fromArray(this.contacts, at);
+  }
+
+  /** Axis and range of the selected joint, whatever else is shown. */
+  private selection(): void {
+    const joint = this.viewer.info.joints.find((one) => one.path === this.viewer.selected);
+    if (!joint) {
+      return;
+    }
+    const frame = this.jointFrame(joint);
+    const dot = new THREE.Mesh(ball, paint(colors.selection));
+    dot.scale.setScalar(this.size * 0.016);
+    frame.add(dot);
+    if (joint.kind === "revolute" || joint.kind === "prismatic") {
+      const sign = arrow(this.size * 0.3, this.size * 0.006, paint(colors.selection));
+      const direction = new THREE.Vector3(...axes[joint.axis]);
+      sign.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction);
+      sign.position.copy(direction).multiplyScalar(-this.size * 0.15);
+      frame.add(sign);
+    }
+    this.addLimits(joint, frame);
+    this.add("selection", this.nodeOf(joint.body0), frame);
   }
 
   private middle(body: number): THREE.Vector3 {

@@ -7,11 +7,17 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { Batches, batched } from "./batches";
+import { Eye, type Side, sides } from "./eye";
 import { fitted } from "./framing";
+import { dispose, openGraphics, sizeOf } from "./graphics";
+import { gridLines } from "./grid";
 import { type BodyInfo, type NodeKind, type SceneInfo, noScene } from "./info";
 import { addLights, reflectRoom } from "./lights";
 import { Motion } from "./motion";
 import { Overlays, type OverlayName } from "./overlays";
+import { Pace } from "./pace";
+import { type Part, Visibility } from "./visibility";
 
 const themes = {
   light: { background: 0xeef1f4, grid: 0xb9c2cb, axis: 0x8793a0 },
@@ -20,48 +26,6 @@ const themes = {
 
 const highlight = new THREE.Color(0x2f7fe0);
 const failure = new THREE.Color(0xe02f2f);
-
-interface Size {
-  width: number;
-  height: number;
-}
-
-/** Of a box in the page, one pixel at least. */
-function sizeOf(box: HTMLElement): Size {
-  return { width: Math.max(1, box.clientWidth), height: Math.max(1, box.clientHeight) };
-}
-
-interface Graphics {
-  canvas: HTMLCanvasElement;
-  context: WebGL2RenderingContext | null;
-  /** Pictures are computed by the processor. */
-  software: boolean;
-}
-
-/**
- * What is drawn with. Unless it is said, edges are smoothed where that is not software's work. The
- * canvas has its size before it has a context: each change of it later makes all buffers anew.
- */
-function openGraphics(antialias: boolean | undefined, { width, height }: Size): Graphics {
-  const open = (smooth: boolean) => {
-    const canvas = document.createElement("canvas");
-    Object.assign(canvas, { width, height });
-    const context = canvas.getContext("webgl2", {
-      antialias: smooth,
-      preserveDrawingBuffer: true,
-    });
-    return { canvas, context };
-  };
-  const first = open(antialias ?? false);
-  const names = first.context?.getExtension("WEBGL_debug_renderer_info");
-  const name = names ? String(first.context!.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
-  const software = /swiftshader|llvmpipe|software|basic render/i.test(name);
-  if (software || antialias !== undefined) {
-    return { ...first, software };
-  }
-  first.context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return { ...open(true), software };
-}
 
 export interface ViewerOptions {
   /** Smooths edges; as the machine is fast enough for, unless said. */
@@ -72,55 +36,6 @@ export interface ViewerOptions {
   animated?: boolean;
 }
 
-/** Gives back what the graphics hold for a part. */
-function dispose(part: THREE.Object3D): void {
-  if (!(part instanceof THREE.Mesh)) {
-    return;
-  }
-  part.geometry.dispose();
-  for (const material of [part.material as THREE.Material | THREE.Material[]].flat()) {
-    for (const value of Object.values(material)) {
-      if (value instanceof THREE.Texture) {
-        value.dispose();
-      }
-    }
-    material.dispose();
-  }
-}
-
-/** A grid in the plane of the ground: each square's sides are lines of their own. */
-function gridLines(step: number, colors: { grid: number; axis: number }): THREE.LineSegments {
-  const places: number[] = [];
-  const shades: number[] = [];
-  const half = 20;
-  const corner = (a: number, b: number, turned: boolean, color: THREE.Color): void => {
-    const fade = Math.max(0, 1 - Math.hypot(a, b) / half) ** 1.5;
-    places.push((turned ? b : a) * step, 0, (turned ? a : b) * step);
-    shades.push(color.r, color.g, color.b, fade);
-  };
-  for (const turned of [false, true]) {
-    for (let a = -half; a <= half; ++a) {
-      const color = new THREE.Color(a === 0 ? colors.axis : colors.grid);
-      for (let b = -half; b < half; ++b) {
-        if (Math.hypot(a, b) < half && Math.hypot(a, b + 1) < half) {
-          corner(a, b, turned, color);
-          corner(a, b + 1, turned, color);
-        }
-      }
-    }
-  }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
-  geometry.setAttribute("color", new THREE.Float32BufferAttribute(shades, 4));
-  const material = new THREE.LineBasicMaterial({
-    vertexColors: true,
-    transparent: true,
-    depthWrite: false,
-    toneMapped: false,
-  });
-  return new THREE.LineSegments(geometry, material);
-}
-
 export class Viewer extends EventTarget {
   readonly scene = new THREE.Scene();
   readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
@@ -128,6 +43,8 @@ export class Viewer extends EventTarget {
   readonly controls: OrbitControls;
   readonly software: boolean;
   readonly overlays = new Overlays(this);
+  readonly visibility = new Visibility();
+  readonly eye: Eye;
   info: SceneInfo = noScene;
   /** What stands in the world's axes: its children are the bodies and the world's own node. */
   root: THREE.Object3D = new THREE.Group();
@@ -138,11 +55,17 @@ export class Viewer extends EventTarget {
   /** Middle and size of the scene, in glTF's axes [m]. */
   readonly sphere = new THREE.Sphere(new THREE.Vector3(), 1);
   selected = "";
+  /** Further prims that are selected beside it. */
+  readonly also = new Set<string>();
+  /** The body that the camera goes along with; "": none. */
+  followed = "";
   /** The prim that a failed simulation names; "": none. */
   failed = "";
   /** What the view is fitted to: all that is drawn, but for grounds. */
   fitted: THREE.Object3D[] = [];
 
+  private readonly pace = new Pace();
+  private readonly batches = new Batches(this.scene);
   private readonly grid = new THREE.Group();
   private readonly kinds: Record<NodeKind, THREE.Object3D[]> = {
     world: [],
@@ -151,6 +74,7 @@ export class Viewer extends EventTarget {
     collider: [],
   };
   private readonly plain = new Map<THREE.Mesh, THREE.Material | THREE.Material[]>();
+  private ratio = 1;
   private dirty = true;
   private sized = false;
   private frames = 0;
@@ -169,14 +93,18 @@ export class Viewer extends EventTarget {
       context: graphics.context ?? undefined,
       alpha,
     });
-    this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
+    this.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio, 2));
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "The asset in three dimensions");
     container.append(canvas);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("change", () => {
+      this.invalidate();
+      this.dispatchEvent(new Event("camera"));
+    });
+    this.eye = new Eye(this.camera, this.controls);
     addLights(this.scene, this.camera);
     this.scene.add(this.grid);
     this.setTheme("light");
@@ -186,6 +114,12 @@ export class Viewer extends EventTarget {
     if (animated) {
       this.renderer.setAnimationLoop((time) => this.tick(time / 1000));
     }
+  }
+
+  /** Pixels for each of the page, along each side. */
+  setPixelRatio(ratio: number): void {
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
   }
 
   /** Shows another file; the camera stays where it is with `keepCamera`. */
@@ -217,6 +151,8 @@ export class Viewer extends EventTarget {
       this.frame();
     }
     this.overlays.rebuild();
+    this.batches.begin(this.kinds.visual);
+    this.visibility.begin(this.parts(), this.info.bodies.map((body) => body.path));
     this.showSelection();
     this.scenes += 1;
     this.dispatchEvent(new Event("load"));
@@ -230,8 +166,23 @@ export class Viewer extends EventTarget {
       this.bodies[i]?.position.fromArray(frame, at);
       this.bodies[i]?.quaternion.fromArray(frame, at + 3);
     }
-    this.overlays.follow();
+    this.afterMotion();
     this.invalidate();
+  }
+
+  /** The camera goes along with a body; "" leaves it where it is. */
+  follow(path: string): void {
+    this.followed = path;
+    this.eye.moveWith(null);
+    this.afterMotion();
+    this.dispatchEvent(new Event("camera"));
+  }
+
+  private afterMotion(): void {
+    this.overlays.follow();
+    const body = this.bodies[this.info.bodies.findIndex((one) => one.path === this.followed)];
+    this.eye.moveWith(body ? body.getWorldPosition(new THREE.Vector3()) : null);
+    this.dispatchEvent(new Event("poses"));
   }
 
   /** The object of a path: a body, or a visual or collider by its own. */
@@ -241,9 +192,25 @@ export class Viewer extends EventTarget {
 
   /** Selects a prim by its path; "" selects nothing. */
   select(path: string): void {
+    this.also.clear();
     this.selected = path;
     this.showSelection();
     this.dispatchEvent(new CustomEvent("select", { detail: path }));
+  }
+
+  /** Selects a prim beside those that are selected, or takes it off. */
+  selectAlso(path: string): void {
+    const all = this.selection();
+    const left = all.includes(path) ? all.filter((one) => one !== path) : [path, ...all];
+    this.select(left[0] ?? "");
+    left.slice(1).forEach((one) => this.also.add(one));
+    this.showSelection();
+    this.dispatchEvent(new CustomEvent("select", { detail: this.selected }));
+  }
+
+  /** All that is selected, what was selected last first. */
+  selection(): string[] {
+    return this.selected ? [this.selected, ...this.also] : [];
   }
 
   /** Marks the prim that a failed simulation names; "" takes the mark off. */
@@ -254,7 +221,11 @@ export class Viewer extends EventTarget {
 
   private showSelection(): void {
     this.unmark();
-    for (const [path, color] of [[this.failed, failure], [this.selected, highlight]] as const) {
+    const marks = [
+      [this.failed, failure] as const,
+      ...this.selection().map((path) => [path, highlight] as const),
+    ];
+    for (const [path, color] of marks) {
       const node = path ? this.nodeAt(path) : undefined;
       if (node) {
         this.mark(node, color);
@@ -270,10 +241,15 @@ export class Viewer extends EventTarget {
   }
 
   show(kind: "visual" | "collider", visible: boolean): void {
-    for (const node of this.kinds[kind]) {
-      node.visible = visible;
-    }
-    this.invalidate();
+    this.change(() => this.visibility.show(kind, visible));
+  }
+
+  /** Changes what is drawn of the parts; materials of the selection stay marked. */
+  change(act: () => void): void {
+    this.unmark();
+    act();
+    this.showSelection();
+    this.dispatchEvent(new Event("visibility"));
   }
 
   showOverlay(name: OverlayName, visible: boolean): void {
@@ -305,13 +281,32 @@ export class Viewer extends EventTarget {
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
     const narrow = Math.min(1, this.camera.aspect);
     const distance = ((sphere.radius / Math.sin(half) / narrow) * 1.02) / zoom;
-    this.camera.position.copy(sphere.center).addScaledVector(away, distance);
+    this.lookAs(sphere.center.clone().addScaledVector(away, distance), sphere.center);
+  }
+
+  /** Looks from a place at another one, in glTF's axes [m]. */
+  lookAs(place: THREE.Vector3, target: THREE.Vector3): void {
+    const distance = place.distanceTo(target);
+    this.camera.position.copy(place);
     this.camera.near = distance / 500;
     this.camera.far = Math.max(distance, this.sphere.radius) * 50;
     this.camera.updateProjectionMatrix();
-    this.controls.target.copy(sphere.center);
+    this.controls.target.copy(target);
     this.controls.update();
     this.invalidate();
+  }
+
+  /** Looks at what is looked at from a side, along an axis of the asset. */
+  lookFrom(side: Side): void {
+    const away = new THREE.Vector3(...sides[side]).applyQuaternion(this.root.quaternion);
+    const path = this.nodeAt(this.selected) ? this.selected : "";
+    this.frame(path, away);
+  }
+
+  setOrthographic(on: boolean): void {
+    this.eye.orthographic = on;
+    this.invalidate();
+    this.dispatchEvent(new Event("camera"));
   }
 
   /** Draws again before the next picture. */
@@ -329,8 +324,14 @@ export class Viewer extends EventTarget {
     return this.frames;
   }
 
-  /** Draws now; until there is a scene only what is behind it, which costs next to nothing. */
+  /** Draws now, with all pixels. */
   draw(): void {
+    this.pace.fine();
+    this.drawAs(1);
+  }
+
+  /** Until there is a scene only what is behind it, which costs next to nothing. */
+  private drawNow(): void {
     this.dirty = false;
     if (this.scenes === 0) {
       this.renderer.setClearColor(themes[this.theme].background);
@@ -338,8 +339,25 @@ export class Viewer extends EventTarget {
       return;
     }
     this.overlays.refresh();
-    this.renderer.render(this.scene, this.camera);
+    this.batches.update(this.camera.position);
+    this.renderer.render(this.scene, this.eye.current(this.room));
     this.frames += 1;
+  }
+
+  /** How far things may lie before the camera [m]. */
+  private get room(): number {
+    return 10 * this.sphere.radius;
+  }
+
+  private parts(): Part[] {
+    return (["visual", "collider"] as const).flatMap((kind) =>
+      this.kinds[kind].map((node) => ({
+        node,
+        kind,
+        path: (node.userData.path as string | undefined) ?? "",
+        body: (this.carrierOf(node)?.userData.path as string | undefined) ?? "",
+      })),
+    );
   }
 
   private nodes(): THREE.Object3D[] {
@@ -349,6 +367,7 @@ export class Viewer extends EventTarget {
   private clear(): void {
     this.unmark();
     this.overlays.clear();
+    this.batches.clear();
     this.root.traverse(dispose);
     this.root.parent?.remove(this.root);
     for (const child of [...this.scene.children]) {
@@ -377,13 +396,25 @@ export class Viewer extends EventTarget {
 
   private tick(seconds: number): void {
     if (this.motion?.advance(seconds)) {
-      this.overlays.follow();
+      this.afterMotion();
       this.dispatchEvent(new Event("time"));
       this.dirty = true;
     }
     if (this.dirty) {
+      this.software && this.pace.drawn(seconds);
+      this.drawAs(this.pace.share);
+    } else if (this.pace.restsAt(seconds)) {
       this.draw();
     }
+  }
+
+  /** Draws with a share of the pixels along each side. */
+  private drawAs(share: number): void {
+    const ratio = this.ratio * share;
+    if (this.software && this.renderer.getPixelRatio() !== ratio) {
+      this.renderer.setPixelRatio(ratio);
+    }
+    this.drawNow();
   }
 
   /** Colliders begin unseen and are drawn so that what they stand for shows through. */
@@ -405,6 +436,10 @@ export class Viewer extends EventTarget {
             roughness: 0.8,
             flatShading: true,
             side: THREE.DoubleSide,
+            // Before what lies in the same plane, which would flicker.
+            polygonOffset: true,
+            polygonOffsetFactor: -1,
+            polygonOffsetUnits: -1,
           });
         }
       });
@@ -492,30 +527,51 @@ export class Viewer extends EventTarget {
       const moved = Math.hypot(event.clientX - from[0], event.clientY - from[1]);
       if (event.button === 0 && moved < 4) {
         const hit = this.pick(event.clientX, event.clientY);
-        this.select(hit ? this.bodyPathOf(hit.object) : "");
+        const path = hit ? this.bodyPathOf(hit.object) : "";
+        if (event.ctrlKey || event.metaKey) {
+          path && this.selectAlso(path);
+        } else if (!this.picksPoints) {
+          this.select(path);
+        }
       }
     });
   }
 
-  /** What is drawn at a place of the window. */
-  pick(clientX: number, clientY: number): THREE.Intersection | undefined {
+  /** Clicks name points, and select nothing. */
+  picksPoints = false;
+
+  /** The ray that is seen as a point at a place of the window. */
+  rayAt(clientX: number, clientY: number): THREE.Raycaster {
     const box = this.renderer.domElement.getBoundingClientRect();
     const at = new THREE.Vector2(
       ((clientX - box.left) / box.width) * 2 - 1,
       1 - ((clientY - box.top) / box.height) * 2,
     );
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(at, this.camera);
+    ray.setFromCamera(at, this.eye.current(this.room));
+    ray.layers.enable(batched);
+    return ray;
+  }
+
+  /** What is drawn at a place of the window. */
+  pick(clientX: number, clientY: number): THREE.Intersection | undefined {
+    const ray = this.rayAt(clientX, clientY);
     const seen = [...this.kinds.visual, ...this.kinds.collider].filter((node) => node.visible);
     return ray.intersectObjects(seen, true)[0];
   }
 
-  /** The enabled body that carries a node. */
-  private bodyOf(part: THREE.Object3D): BodyInfo | undefined {
+  /** The node of the body that carries a node. */
+  carrierOf(part: THREE.Object3D): THREE.Object3D | null {
     let node: THREE.Object3D | null = part;
     while (node && node.userData.kind !== "body") {
       node = node.parent;
     }
+    return node;
+  }
+
+  /** The enabled body that carries a node. */
+  private bodyOf(part: THREE.Object3D): BodyInfo | undefined {
+    const node = this.carrierOf(part);
     const body = node ? this.info.bodies[node.userData.index as number] : undefined;
     return body?.enabled ? body : undefined;
   }

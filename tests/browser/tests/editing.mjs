@@ -77,9 +77,37 @@ export const tests = {
     for (const part of [wanted.message, wanted.severity, `:${wanted.line}`, wanted.fix]) {
       hold(text.includes(part), `the finding does not say ${part}: ${text}`);
     }
-    await item.getByRole("button").click();
+    await item.getByRole("button").first().click();
     hold((await selected(page)) === joint, `it selects ${await selected(page)}`);
     await page.locator(".inspector h2").filter({ hasText: joint }).waitFor();
+  },
+
+  async findings_come_by_themselves_grouped_and_filtered(stage) {
+    const asset = stage.hand();
+    const text = readFileSync(physics(asset), "utf8");
+    const many = text.replaceAll(/(physics:upperLimit = )[\d.]+/g, "$10.5236");
+    hold(many.split("= 0.5236").length > 5, "the hand has few limits");
+    writeFileSync(physics(asset), many);
+    const page = await stage.live(await stage.view(asset));
+    await openTab(page, "Findings");
+    const group = page.locator(".finding-group").filter({ hasText: "joint.limits-in-radians" });
+    await group.waitFor();
+    const all = stage.tenon(["check", "--json", asset], { fails: true }).diagnostics;
+    const ofRule = all.filter((one) => one.rule === "joint.limits-in-radians");
+    const title = await group.locator("summary").textContent();
+    hold(title.includes(`${ofRule.length} x`), `the group reads ${title}, there are ${ofRule.length}`);
+    hold((await page.locator(".finding").count()) === all.length, "some findings are not there");
+    await group.locator("summary").click();
+    hold(await group.locator(".finding").first().isVisible(), "a group does not open");
+    const place = await group.locator(".finding small").first().textContent();
+    hold(/physics\.usda:\d+$/.test(place), `the place reads ${place}`);
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await group.locator(".finding").first().getByRole("button", { name: "Copy" }).click();
+    hold((await page.evaluate(() => navigator.clipboard.readText())) === place, "Copy copies something else");
+    await page.getByLabel("Filter findings").fill("radians thumb");
+    const left = all.filter((one) => `${one.rule} ${one.message} ${one.prim}`.includes("thumb") && one.rule.includes("radians"));
+    hold((await page.locator(".finding").count()) === left.length, "the filter shows others");
+    return `${all.length} findings, ${ofRule.length} of one rule`;
   },
 
   async an_edit_lands_and_comes_back(stage) {

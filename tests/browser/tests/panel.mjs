@@ -29,7 +29,7 @@ const expected = {
       (pair) => pair.every((one) => one >= 0) && pair.some((i) => v.info.bodies[i].path === v.selected),
     ).length,
   ],
-  contacts: (v, laid) => [laid, v.overlays.contacts.length],
+  contacts: (v, laid) => [laid && v.overlays.drawnContacts, v.overlays.contacts.length / 6],
   grid: (v) => [v.grid.visible ? 1 : 0, 1],
 };
 

@@ -27,10 +27,13 @@ export const poses = (page) =>
 
 const slider = (page, joint, what) =>
   page
-    .locator(`.mover[data-joint="${joint}"] label`)
+    .locator(`.mover[data-joint="${joint}"] .slider`)
     .filter({ hasText: what })
-    .locator("input")
+    .locator("input[type=range]")
     .first();
+
+/** The field beside a slider. */
+const field = (input) => input.locator("xpath=../..").locator("input[type=number]");
 
 /** Bodies that hang on a joint. */
 function hanging(joints, joint) {
@@ -64,7 +67,7 @@ async function moveJoint(page, joints, joint, part) {
     hold(!moved || below.has(path), `${joint.path} moves ${path}`);
     hold(moved || !below.has(path), `${joint.path} leaves ${path} where it was`);
   }
-  const text = await input.locator("xpath=..").locator("output").textContent();
+  const text = await field(input).inputValue();
   const shown = joint.type === "revolute" ? (value * 180) / Math.PI : value * 1000;
   near(parseFloat(text), shown, Math.abs(shown) * 1e-3 + 1e-3, `what the slider of ${joint.path} says`);
 }

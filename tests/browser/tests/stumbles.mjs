@@ -4,6 +4,7 @@
 // What people stumbled over: keys after a click on a switch, prims that were not found, pictures
 // that went away with a simulation, and changed files that do not open.
 import { readFileSync, writeFileSync } from "node:fs";
+import { connect } from "node:net";
 import { join } from "node:path";
 import { ask, button, drawn, hold, listen, openTab, settled, until } from "../harness.mjs";
 import { differing, pixels } from "../silhouette.mjs";
@@ -49,6 +50,10 @@ function written(stage, text, name = "scene.usda") {
   writeFileSync(asset, text);
   return asset;
 }
+
+/** Boxes that PhysX cannot keep together. */
+export const failing = (stage) =>
+  written(stage, scene(fast("a", 0, "1e12") + fast("b", 0.2, 0) + fast("c", 0.1, 0)));
 
 const failed = (page) => page.evaluate(() => window.tenonPage.viewer.failed);
 const places = (page) =>
@@ -194,8 +199,7 @@ export const tests = {
   },
 
   async a_failed_simulation_keeps_its_picture(stage) {
-    const text = scene(fast("a", 0, "1e8") + fast("b", 0.2, 0) + fast("c", 0.1, 0));
-    const asset = written(stage, text);
+    const asset = failing(stage);
     const page = await stage.live(await stage.view(asset, "--engine", "physx"));
     await listen(page);
     await settled(page);
@@ -204,7 +208,7 @@ export const tests = {
     await wrong(page).waitFor();
     await settled(page);
     const body = await failed(page);
-    hold(/^\/World\/[abc]$/.test(body), `it names ${body}`);
+    hold(/^\/World\/[abc]$/.test(body), `it names ${body}: ${await page.locator(".messages").textContent()}`);
     const said = await page.locator(".messages").textContent();
     hold(said.includes(`<${body}>`), `the message does not name ${body}: ${said}`);
     const [finite, red] = await page.evaluate((path) => {
@@ -262,5 +266,65 @@ export const tests = {
     await until(() => page.evaluate(() => window.heard.scene?.why === "edit"), "the edit");
     await drawn(page);
     await row.waitFor();
+  },
+
+  async without_a_server_nothing_is_offered(stage) {
+    const viewer = await stage.view(stage.hand());
+    const page = await stage.live(viewer, { quiet: false });
+    await page.evaluate((path) => window.tenonPage.viewer.select(path), "/inspire_hand/Physics/right_thumb_2_joint");
+    await page.locator('.property[data-property="physics:upperLimit"] summary').click();
+    await page.locator(".editor").waitFor();
+    await openTab(page, "Move");
+    await viewer.stop();
+    await page.locator(".old").waitFor();
+    const left = () =>
+      page.evaluate(() =>
+        [...document.querySelectorAll(".mover input, .live-tools button, .live-tools select, .editor input, .editor button")]
+          .filter((one) => !one.disabled)
+          .map((one) => one.textContent || one.getAttribute("aria-label") || one.type),
+      );
+    hold((await left()).length === 0, `these can still be used: ${await left()}`);
+    // What was simulated and the picture stay.
+    await page.locator("canvas").first().focus();
+    await page.keyboard.press("1");
+  },
+
+  async undo_says_what_it_did(stage) {
+    const page = await stage.live(await stage.view(stage.hand()));
+    const said = () => page.locator(".messages").textContent();
+    const object = "/inspire_hand/Physics/right_thumb_2_joint.physics:upperLimit";
+    await page.evaluate((path) => window.tenonPage.viewer.select(path), object.split(".")[0]);
+    await page.locator('.property[data-property="physics:upperLimit"] summary').click();
+    const form = page.locator(".editor");
+    await form.getByRole("textbox").fill("30");
+    await form.getByRole("button", { name: "Set" }).click();
+    await until(async () => (await said()).includes("-> 30"), "the edit is told");
+    await button(page, "Undo").click();
+    await until(async () => (await said()).includes("taken back"), "that it was taken back");
+    hold(!(await said()).includes("-> 30"), `the bar says ${await said()}`);
+    await page.locator(".effect").waitFor({ state: "detached" });
+    await page.locator(".inspector h2").filter({ hasText: "right_thumb_2_joint" }).waitFor();
+  },
+
+  async a_page_too_many_says_so(stage) {
+    const viewer = await stage.view(stage.path("examples/scenes/box_on_box.usda"));
+    const sockets = await Promise.all(
+      Array.from({ length: 32 }, () =>
+        new Promise((go, fail) => {
+          const socket = connect(Number(new URL(viewer.url).port), "127.0.0.1", () => go(socket));
+          socket.on("error", fail);
+        }),
+      ),
+    );
+    const page = await stage.page({ quiet: false });
+    const answer = await page.goto(viewer.url);
+    hold(answer.status() === 503, `the answer is ${answer.status()}`);
+    hold((await page.locator("body").textContent()).includes("Close some of its pages"), "no word about why");
+    sockets.forEach((socket) => socket.destroy());
+    // A page whose script is refused says the same.
+    const empty = await stage.page({ quiet: false });
+    await empty.route("**/live.js", (route) => route.fulfill({ status: 503, body: "" }));
+    await until(async () => (await empty.goto(viewer.url)).status() === 200, "a free connection");
+    hold(await empty.getByText("too many connections").isVisible(), "an empty page without a word");
   },
 };

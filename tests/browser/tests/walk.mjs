@@ -59,12 +59,12 @@ export const tests = {
 
     // The thumb does not close.
     await openTab(page, "Move");
-    const slider = page.locator(`.mover[data-joint="${thumb}"] input`).first();
+    const slider = page.locator(`.mover[data-joint="${thumb}"] input[type=range]`).first();
     await slider.scrollIntoViewIfNeeded();
     await slider.focus();
     await page.keyboard.press("End");
-    const range = page.locator(`.mover[data-joint="${thumb}"] output`).first();
-    await until(async () => (await range.textContent()).startsWith("0.5"), "the end of the range");
+    const range = page.locator(`.mover[data-joint="${thumb}"] input[type=number]`).first();
+    await until(async () => (await range.inputValue()).startsWith("0.5"), "the end of the range");
     await picture("thumb");
 
     // Why: the check says so, and leads there.
@@ -89,16 +89,16 @@ export const tests = {
     // Now it closes, also with its motor, while time goes on.
     await openTab(page, "Move");
     const drive = page
-      .locator(`.mover[data-joint="${thumb}"] label`)
+      .locator(`.mover[data-joint="${thumb}"] .slider`)
       .filter({ hasText: "drive to" })
-      .locator("input");
+      .locator("input[type=range]");
     await drive.focus();
     await page.keyboard.press("End");
     await button(page, "Play").click();
     await until(() => page.evaluate(() => window.heard.state?.time > 1.2), "time goes on");
     await button(page, "Pause").click();
     await until(() => page.evaluate(() => !window.heard.state.playing), "a pause");
-    const angle = parseFloat(await range.textContent());
+    const angle = parseFloat(await range.inputValue());
     hold(angle > 15, `the thumb stands at ${angle} degrees after it was mended`);
     await drive.scrollIntoViewIfNeeded();
     await picture("plays");
