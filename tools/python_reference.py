@@ -12,7 +12,11 @@ import textwrap
 # Modules of python/tenon_usd in the order of the page; what each is called there.
 MODULES = (("functions", "tenon_usd"), ("world", "tenon_usd"),
            ("dynamics", "tenon_usd.dynamics"), ("errors", "tenon_usd.errors"),
-           ("options", "tenon_usd.options"), ("gym", "tenon_usd.gym"), ("logs", "tenon_usd.logs"),
+           ("options", "tenon_usd.options"), ("gym", "tenon_usd.gym"),
+           ("actuators", "tenon_usd.actuators"), ("draws", "tenon_usd.draws"),
+           ("observations", "tenon_usd.observations"), ("rendering", "tenon_usd.rendering"),
+           ("tasks/task", "tenon_usd.tasks"), ("tasks/env", "tenon_usd.tasks.env"),
+           ("logs", "tenon_usd.logs"),
            ("sweep/__init__", "tenon_usd.sweep"), ("sweep/plan", "tenon_usd.sweep.plan"),
            ("sweep/cases", "tenon_usd.sweep.cases"), ("sweep/chunks", "tenon_usd.sweep.chunks"),
            ("sweep/work", "tenon_usd.sweep.work"))

@@ -35,6 +35,7 @@ constexpr SweepRow kSweepRows[] = {
     {"--format", "NAME", "parquet, npz or csv; parquet where pyarrow is installed, else csv"},
     {"--merge", "", "Simulate nothing: only put the chunks together"},
     {"--list", "", "Simulate nothing: only print the cases"},
+    {"--report", "", "Write FOLDER/report.html, too: a summary with plots"},
 };
 
 /// What was given for each row.

@@ -21,6 +21,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "tenon/asset/answers/edited_json.h"
 #include "tenon/asset/answers/parts_json.h"
 #include "tenon/asset/answers/structured_json.h"
 #include "tenon/asset/authoring/author_asset.h"
@@ -35,6 +36,8 @@
 #include "tenon/asset/converting/read_gains.h"
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/asset/layers/output_place.h"
+#include "tenon/asset/poses/pose_edits.h"
+#include "tenon/asset/poses/pose_json.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset/updating/base_copy.h"
 #include "tenon/asset/updating/update_asset.h"
@@ -142,6 +145,56 @@ nb::object compare(const std::filesystem::path& path, const OpenArguments& argum
     };
     TENON_TRY(const ComparedEngines compared, compare_engines(path.string(), options, job.found));
     return compared_engines_json(compared, true);
+  });
+}
+
+nb::object poses(const std::filesystem::path& path, const OpenArguments& arguments) {
+  return answer_of([path, open = open_options_of(arguments),
+                    readings = readings_of(arguments)](Job& job) -> Result<Json> {
+    TENON_TRY(const PoseOfAsset asset, pose_of_asset(path.string(), open, readings, {}, job.found));
+    return named_poses_json(asset);
+  });
+}
+
+/// Keeps what was found under a name; the edits are in `json` then.
+Result<void> save_pose(const std::string& path, const OpenOptions& open, const PoseOfAsset& asset,
+                       const std::string& name, const std::string& robot, Job& job, Json& json) {
+  TENON_TRY(const Path keeper, robot_of_poses(asset, robot));
+  TENON_TRY(const physics::NamedPose saved, pose_to_save(asset, keeper, name, job.found));
+  TENON_TRY(const std::vector<AssetEdit> edits, save_edits(asset, keeper, {saved}));
+  EditedAsset edited;
+  if (!edits.empty()) {
+    Diagnostics again;  // the asset was read before
+    TENON_TRY(edited, edit_asset(path, edits, {open, "", ""}, again));
+    TENON_CHECK(check_may_write(job));
+    TENON_CHECK(write_files(edited.files));
+  }
+  json.update(edited_json(edits, edited, false));
+  return {};
+}
+
+nb::object pose(const std::filesystem::path& path, const OpenArguments& arguments,
+                const std::vector<std::string>& texts, const std::vector<std::string>& ik,
+                const std::vector<std::string>& rotation, const std::vector<std::string>& hold,
+                std::optional<double> tolerance, std::size_t starts, std::uint64_t seed,
+                const std::string& save, const std::string& robot) {
+  PoseRequest request;
+  request.pose = texts;
+  request.ik = ik;
+  request.rotation = rotation;
+  request.hold = hold;
+  request.tolerance = tolerance;
+  request.starts = starts;
+  request.seed = seed;
+  return answer_of([path, request, save, robot, open = open_options_of(arguments),
+                    readings = readings_of(arguments)](Job& job) -> Result<Json> {
+    TENON_TRY(const PoseOfAsset asset,
+              pose_of_asset(path.string(), open, readings, request, job.found));
+    Json json = posture_json(asset);
+    if (!save.empty() && asset.is_reached()) {
+      TENON_CHECK(save_pose(path.string(), open, asset, save, robot, job, json));
+    }
+    return json;
   });
 }
 
@@ -412,6 +465,15 @@ void bind_checks(nb::module_& module) {
                      "engines: Sequence[str], duration: float | None, time_step: float, "
                      "frames: float, trials: int, commands: str | os.PathLike[str], "
                      "bounds: str) -> dict[str, Any]"));
+  module.def("poses", &poses, "path"_a, "arguments"_a,
+             nb::sig("def poses(path: str | os.PathLike[str], arguments: OpenArguments) -> "
+                     "dict[str, Any]"));
+  module.def("pose", &pose, "path"_a, "arguments"_a, "texts"_a, "ik"_a, "rotation"_a, "hold"_a,
+             "tolerance"_a.none(), "starts"_a, "seed"_a, "save"_a, "robot"_a,
+             nb::sig("def pose(path: str | os.PathLike[str], arguments: OpenArguments, texts: "
+                     "Sequence[str], ik: Sequence[str], rotation: Sequence[str], hold: "
+                     "Sequence[str], tolerance: float | None, starts: int, seed: int, save: str, "
+                     "robot: str) -> dict[str, Any]"));
 }
 
 }  // namespace

@@ -136,6 +136,61 @@ def compare(
     )
 
 
+def poses(path: PathLike, **options: Unpack[OpenOptions]) -> list[dict[str, Any]]:
+    """The named poses that an asset keeps: {"name", "path", "robot", "startLink", "endLink",
+    "valid", "joints"}, and of each joint {"joint", "dof", "value", "lower", "upper", "fixed",
+    "follows", "problem"} [rad, m].
+    """
+    rows: list[dict[str, Any]] = _tenon.poses(path_of(path), arguments_of(options))["poses"]
+    return rows
+
+
+def pose(
+    path: PathLike,
+    pose: str = "",
+    *,
+    ik: Mapping[str, Sequence[float]] | None = None,
+    rotation: Mapping[str, Sequence[float]] | None = None,
+    hold: Sequence[str] = (),
+    tolerance: float | None = None,
+    starts: int = 32,
+    seed: int = 1,
+    save: str = "",
+    robot: str = "",
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """Where the joints of an asset are, and where they have to be for frames to be at places.
+
+    `pose` is a named pose, or text as of Dynamics, several with commas between; the start where it
+    is empty. `ik` gives the place of prims [m, world], `rotation` their orientation as quaternions
+    (w, x, y, z); `hold` names joints that stay. The search begins at `pose`, then at postures drawn
+    from `seed`, `starts` in all. `save` keeps what was found under that name in the file that owns
+    it; what was not reached is not saved. Returns {"joints": as of poses(), "reach": {"reached",
+    "obstacle", "targets", ..}} with `ik`, and "edits" and "written" where it was saved.
+    """
+    places = [
+        f"{frame}=" + ",".join(f"{float(number)!r}m" for number in place)
+        for frame, place in (ik or {}).items()
+    ]
+    turns = [
+        f"{frame}=" + ",".join(repr(float(number)) for number in turn)
+        for frame, turn in (rotation or {}).items()
+    ]
+    return _tenon.pose(
+        path_of(path),
+        arguments_of(options),
+        [pose] if pose else [],
+        places,
+        turns,
+        list(hold),
+        tolerance,
+        starts,
+        seed,
+        save,
+        robot,
+    )
+
+
 def _check_conflicts(conflicts: str | None) -> None:
     if conflicts not in (None, "edits", "source", "fail"):
         raise ValueError(f"conflicts is {conflicts!r}; expected edits, source or fail")

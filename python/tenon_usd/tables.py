@@ -5,11 +5,12 @@
     stage.physics().bodies.to_pandas()         # a row for each body
     stage.masses().to_arrow()
     tenon_usd.logs.read("run.npz").to_pandas()
-    tenon_usd.sweep.read("runs").to_arrow()
+    tenon_usd.sweep.read("runs").to_arrow()    # or to_xarray()
 
 Each has the unit of every column: Arrow in the metadata of its fields ("unit", "meaning"), pandas
-in DataFrame.attrs["units"]. pandas and pyarrow are the user's own; MissingError says how to get one
-that is missing. Columns of scenes are made of the library's tables of fields: none is listed here.
+in DataFrame.attrs["units"]. pandas, xarray and pyarrow are the user's own; MissingError says how to
+get one that is missing. Columns of scenes are made of the library's tables of fields: none is
+listed here.
 """
 
 from __future__ import annotations
@@ -71,6 +72,13 @@ class Table:
         ]
         return pa.table(arrays, schema=pa.schema(fields))
 
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset along "row"; attrs["units"] of each variable that has a unit. Raises
+        MissingError without xarray."""
+        xr = _extra("xarray")
+        return xr.Dataset({name: ("row", np.asarray(values), _told(self, name))
+                           for name, values in self.columns.items()})
+
     def to_pandas(self) -> Any:
         """A pandas.DataFrame; attrs["units"] has the unit of each column that has one. Raises
         MissingError without pandas."""
@@ -78,6 +86,12 @@ class Table:
         frame = pd.DataFrame(self.columns)
         frame.attrs["units"] = dict(self.units)
         return frame
+
+
+def _told(table: Table, name: str) -> dict[str, str]:
+    """What xarray is told of a column: "units" is its word for the unit."""
+    told = {"units": table.units.get(name, ""), "long_name": table.meanings.get(name, "")}
+    return {key: text for key, text in told.items() if text}
 
 
 class Rows(list[dict[str, Any]]):

@@ -134,6 +134,35 @@ def Xform "W"
         self.assertEqual(answer["exceeded"], [])
 
 
+class Poses(support.FilesTestCase):
+    def test_pose_is_found_saved_and_listed_as_by_the_program(self):
+        path = self.copied_hand()
+        self.assertEqual(tenon.poses(path), [])
+        before = tenon.pose(path, "right_index_1_joint=40")
+        self.assertNotIn("reach", before)
+        saved = tenon.pose(path, "right_index_1_joint=40", save="bent")
+        self.assertTrue(saved["written"])
+        self.assertEqual(saved["joints"], before["joints"])
+        self.assertEqual([row["name"] for row in tenon.poses(path)], ["bent"])
+        name = os.path.relpath(path)
+        self.assertEqual({"poses": tenon.poses(path)}, printed("pose", name))
+        # Back to the link's place, from the start.
+        dynamics = tenon.Dynamics(tenon.physics(path), "right_index_1_joint=40")
+        link = "/inspire_hand/right_index_2"
+        place = dynamics.body_positions()[dynamics.body(link)]
+        found = tenon.pose(path, ik={link: place})
+        self.assertTrue(found["reach"]["reached"])
+        angle = {row["joint"]: row["value"] for row in found["joints"]}
+        self.assertAlmostEqual(angle["/inspire_hand/Physics/right_index_1_joint"],
+                               math.radians(40), 3)
+        far = tenon.pose(path, ik={link: (9, 9, 9)}, save="far")
+        self.assertFalse(far["reach"]["reached"])
+        self.assertNotIn("written", far)
+        self.assertEqual([row["name"] for row in tenon.poses(path)], ["bent"])
+        with self.assertRaises(tenon.NotFoundError):
+            tenon.pose(path, "bend")
+
+
 class Files(support.FilesTestCase):
     def test_robots_go_in_and_out(self):
         answer = tenon.convert(ROBOT, self.folder / "arm", gains=(10, 1))

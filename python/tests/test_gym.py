@@ -188,12 +188,6 @@ class Draws(support.FilesTestCase):
         self.assertIsInstance(reward, float)
         self.assertEqual(env.spec.id, "tenon/Grasp-v0")
 
-    def test_what_is_not_drawn_as_a_picture_says_so(self):
-        self.assertEqual(GraspEnv.metadata["render_modes"], [])
-        self.assertIsNone(self.envs(()).render_mode)
-        with self.assertRaisesRegex(ValueError, "rgb_array"):
-            self.envs((), render_mode="rgb_array")
-
 
 def can_of(envs):
     return envs.world.body_names.index("/World/can")

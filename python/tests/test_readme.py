@@ -57,6 +57,23 @@ class Snippets(support.FilesTestCase):
         # They go on from each other, as a reader takes them.
         self.run_there("-c", "\n".join(snippets))
 
+    def test_the_page_about_tasks(self):
+        self.place_examples()
+        text = (support.ROOT / "docs/tasks.md").read_text()
+        files = re.findall(r"^```toml\n# (\S+)\n(.*?)^```$", text, re.M | re.S)
+        self.assertEqual([name for name, _ in files], ["balance.toml", "grasp.toml"])
+        for name, told in files:
+            self.written(name, told)
+        own = (support.ROOT / "python/tenon_usd/tasks/balance.toml").read_text()
+        self.assertTrue(own.endswith(files[0][1]))
+        reach = (support.ROOT / "python/tenon_usd/tasks/reach.toml").read_text()
+        shown = re.search(r"^    \[\[goal\]\]\n.*?(?=^\S)", text, re.M | re.S).group()
+        for part in shown.replace("\n    ", "\n").strip().split("\n\n"):
+            self.assertIn(part + "\n", reach)
+        snippets = SNIPPET.findall(text)
+        self.assertGreater(len(snippets), 2)
+        self.run_there("-c", "\n".join(snippets))
+
     def test_every_example(self):
         self.place_examples()
         self.assertEqual(sorted(path.name for path in EXAMPLES.glob("*.py")), sorted(ARGUMENTS))

@@ -12,14 +12,17 @@ import io
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
+import numpy as np
 import sweep_source
 from sweep_source import PLAN, Stone
 
@@ -27,6 +30,7 @@ from tenon_usd.sweep import (Cases, ExtraMissing, FolderError, Outcome, PlanErro
                              load_plan, plan_from_table, run_on_threads, shard_of)
 from tenon_usd.sweep.command import main
 from tenon_usd.sweep.plan import vary_from_text
+from tenon_usd.sweep.report import page, rank_correlation
 
 
 def has(*names):
@@ -237,6 +241,53 @@ class Levels(Folder):
         answer = json.loads(out)
         self.assertEqual(answer["statuses"]["ok"] + len(answer["failed"]), 100)
         self.assertIn("m, ä", answer["failed"][0]["error"])
+
+    def test_a_report_has_counts_numbers_plots_and_what_failed(self):
+        folder = self.folder / "<r>"
+        out, _ = self.sweep("-o", folder, "--format", "csv", "--report", code=1)
+        self.assertIn(str(folder / "report.html"), out)
+        text = (folder / "report.html").read_text(encoding="utf-8")
+        out, _ = self.sweep("-o", folder, "--merge", "--json", "--report", code=1)
+        answer = json.loads(out)
+        self.assertEqual(answer["report"], str(folder / "report.html"))
+        self.assertEqual((folder / "report.html").read_text(encoding="utf-8"), text)
+        lines = (folder / "result.csv").read_text(encoding="utf-8").splitlines()
+        rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
+        good = [float(row["speed"]) for row in rows if row["status"] == "ok"]
+        cells = re.findall(r"<td[^>]*>([^<]*)</td>", text)
+        self.assertIn("100 of 100", cells)
+        at = cells.index("speed [m/s]")
+        self.assertEqual(cells[at + 1:at + 4], [str(len(good)), f"{min(good):.5g}",
+                                                f"{statistics.median(good):.5g}"])
+        plots = text.split("<svg")[1:]
+        self.assertEqual([plot.count("<circle") for plot in plots], [len(good)] * 2)
+        self.assertEqual([plot.count("<polyline") for plot in plots], [1, 0])
+        self.assertEqual(text.count("<td>unstable</td>"), 100 - len(good) + 1)
+        for absent in ("<script", "http:", "https:", "src="):
+            self.assertNotIn(absent, text)
+
+    def test_a_report_of_names_and_of_nothing_is_whole(self):
+        plan = plan_from_table({"asset": "a&b.usda", "vary": [
+            {"name": "<b>", "scale": "m", "grid": [1, 2]}, {"engine": ["mujoco", "<i>"]}],
+            "metric": [{"name": "m\"", "of": "energy"}]}, "")
+        rows = [{"case": i, "<b>": 1.0 + i // 2, "engine": ("mujoco", "<i>")[i % 2], "m\"": 5.0,
+                 "status": "ok", "time": 1.0, "rule": "", "error": ""} for i in range(4)]
+        for some in (rows, []):
+            text = page(plan, some)
+            self.assertNotIn("<b>", text)
+            self.assertNotIn("<i>", text)
+            self.assertIn("a&amp;b.usda", text)
+        many = [{**rows[0], "case": i} for i in range(9000)]
+        self.assertLessEqual(page(plan, many).count("<circle"), 2 * 2000)
+
+    def test_rank_correlations(self):
+        x = np.arange(5.0)
+        # 1 - 6 sum d^2 / (n (n^2 - 1)) where no values are equal.
+        self.assertAlmostEqual(rank_correlation(x, np.array([2.0, 1, 4, 3, 5])), 0.8)
+        self.assertAlmostEqual(rank_correlation(x, -np.exp(x)), -1)
+        self.assertAlmostEqual(rank_correlation(np.array([1.0, 2, 2, 3]),
+                                                np.array([5.0, 7, 7, 9])), 1)
+        self.assertTrue(np.isnan(rank_correlation(x, np.ones(5))))
 
     def test_a_shard_that_is_none(self):
         for shard in ("4/4", "a/4", "1", "-1/4", "1/0"):

@@ -4,9 +4,13 @@
 
 import contextlib
 import csv
+import importlib
 import io
 import json
 import math
+import os
+import subprocess
+import sys
 import unittest
 import unittest.mock
 
@@ -332,6 +336,30 @@ class Sweeps(FilesTestCase):
         world.step(250)
         can = world.body_poses[0, world.body_names.index("/World/can"), 2]
         self.assertEqual(float(rows[8]["height"]), can)
+
+    def test_joblib_and_dask_write_the_same_bytes(self):
+        plan = self.folder / "few.toml"
+        text = (ROOT / "examples/sweep/grasp.toml").read_text()
+        plan.write_text(text.replace('"../inspire_hand/grasp.usda"', f'"{GRASP}"')
+                        .replace("duration = 3.5", "duration = 0.1")
+                        .replace("samples = 8", "samples = 2").replace("chunk = 8", "chunk = 2"))
+        _, _, err = self.command(plan, "-o", self.folder / "threads", "-q")
+        self.assertEqual(err, "")
+        (whole,) = (self.folder / "threads").glob("result.*")
+        for name in ("joblib", "dask"):
+            with self.subTest(name):
+                try:
+                    importlib.import_module(name)
+                except ImportError:
+                    if os.environ.get("TENON_EXTRAS"):
+                        raise
+                    self.skipTest(f"{name} is not installed")
+                done = subprocess.run(
+                    [sys.executable, "-B", ROOT / f"examples/sweep/with_{name}.py", plan,
+                     self.folder / name], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual((self.folder / name / whole.name).read_bytes(),
+                                 whole.read_bytes())
 
 
 if __name__ == "__main__":

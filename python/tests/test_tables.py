@@ -164,6 +164,30 @@ class Logs(unittest.TestCase):
             ["stage unit", "deg or stage unit", "deg/s", "N m or N", "N m", "J", "", ""])
 
 
+GRIDS = """
+asset = "box.usda"
+engine = "mujoco"
+duration = 0.05
+samples = 2
+chunk = 4
+[[vary]]
+name = "pull"
+scale = "gravity"
+grid = [0.5, 1]
+[[vary]]
+name = "friction"
+scale = "colliderFriction"
+grid = [1, 2, 3]
+[[vary]]
+name = "mass"
+scale = "bodyMass"
+random = [0.5, 2]
+[[metric]]
+name = "height"
+of = "position.z@/World/BoxActor"
+"""
+
+
 class Sweeps(support.FilesTestCase):
     def swept(self, form):
         self.written("box.usda", (support.SCENES / "box_on_box.usda").read_text())
@@ -189,6 +213,33 @@ class Sweeps(support.FilesTestCase):
         self.assertEqual(told(table.schema.field("height"))["unit"], "m")
         with self.assertRaises(sweep.FolderError):
             sweep.read(self.folder)
+
+    def test_grids_are_dimensions_of_xarray(self):
+        import xarray
+
+        self.written("box.usda", (support.SCENES / "box_on_box.usda").read_text())
+        plan = self.written("grids.toml", GRIDS)
+        folder = self.folder / "grids"
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(run_sweep([str(plan), "-o", str(folder), "--format", "csv"]), 0)
+        table = sweep.read(folder)
+        data = table.to_xarray()
+        self.assertIsInstance(data, xarray.Dataset)
+        self.assertEqual(dict(data.sizes), {"pull": 2, "friction": 3, "sample": 2})
+        self.assertEqual(data["height"].dims, ("pull", "friction", "sample"))
+        self.assertEqual(data["mass"].dims, ("sample",))
+        self.assertEqual(data["height"].attrs["units"], "m")
+        frame = table.to_pandas()
+        for row in frame.itertuples():
+            cell = data.sel(pull=row.pull, friction=row.friction).isel(
+                sample=row.case % 2)
+            self.assertEqual((float(cell["height"]), float(cell["mass"])), (row.height, row.mass))
+        (folder / "result.csv").unlink()
+        (folder / "chunks/00001.csv").unlink()
+        part = sweep.read(folder).to_xarray()["height"].values.reshape(-1)
+        np.testing.assert_array_equal(np.isnan(part), [0] * 4 + [1] * 4 + [0] * 4)
+        rows = tables.Table({"a": [1.0, 2.0]}, {"a": "kg"}).to_xarray()
+        self.assertEqual((rows["a"].dims, rows["a"].attrs), (("row",), {"units": "kg"}))
 
     def test_units_are_those_of_the_fields(self):
         kinds = {"bodies": _tenon.Body, "colliders": _tenon.Collider, "joints": _tenon.Joint,

@@ -6,12 +6,13 @@ A plan is a TOML file (docs/sweep.md). The same plan gives the same bytes on thr
 on a cluster of Ray, and a run that was stopped goes on where it was.
 """
 
+from .._toml import Fault
 from .cases import Case, Cases, ExtraMissing
 from .chunks import FolderError, Results
-from .plan import Fault, Metric, Plan, PlanError, Vary, load_plan, plan_from_table
+from .plan import Metric, Plan, PlanError, Vary, load_plan, plan_from_table
 from .table import read
-from .work import Outcome, Runner, run_on_ray, run_on_threads, shard_of
+from .work import Outcome, Runner, Worker, run_on_ray, run_on_threads, shard_of
 
 __all__ = ["Case", "Cases", "ExtraMissing", "Fault", "FolderError", "Metric", "Outcome", "Plan",
-           "PlanError", "Results", "Runner", "Vary", "load_plan", "plan_from_table", "read",
-           "run_on_ray", "run_on_threads", "shard_of"]
+           "PlanError", "Results", "Runner", "Vary", "Worker", "load_plan", "plan_from_table",
+           "read", "run_on_ray", "run_on_threads", "shard_of"]

@@ -7,6 +7,7 @@ file, whose bytes depend on the results alone.
     FOLDER/plan.json              the plan, its digest, the format
     FOLDER/chunks/00042.parquet   the rows of one chunk
     FOLDER/result.parquet         all rows, when all chunks are there
+    FOLDER/report.html            what --report writes (report.py)
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ from typing import Any
 from .cases import Cases, ExtraMissing
 from .chunks import FORMATS, FolderError, Results, Row
 from .plan import Plan, PlanError, load_plan
+from .report import write_report
 from .work import MakeRunner, failures, run_on_ray, run_on_threads, shard_of
 
 ABOUT = "Simulates an asset many times with values that a plan names; writes a table of results."
@@ -53,6 +54,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--format", choices=FORMATS, help="of the results; parquet where pyarrow is installed")
     add("--merge", action="store_true", help="run nothing: only put the chunks together")
     add("--list", action="store_true", help="run nothing: only print the cases")
+    add("--report", action="store_true", help="write FOLDER/report.html, too: summary and plots")
     add("--json", action="store_true", help="print one JSON object on standard output")
     add("-q", "--quiet", action="store_true", help="no progress")
     return parser
@@ -72,7 +74,7 @@ def _shard(text: str | None) -> tuple[int, int] | None:
 
 
 def _fault(message: str) -> Any:
-    from .plan import Fault
+    from .._toml import Fault
     return Fault("", 0, message)
 
 
@@ -104,13 +106,15 @@ def _list_cases(plan: Plan) -> None:
         writer.writerow([index, *cases[index].values])
 
 
-def _summary(results: Results, rows: list[Row] | None, path: str | None) -> dict[str, Any]:
+def _summary(results: Results, rows: list[Row] | None, path: str | None,
+             report: str | None) -> dict[str, Any]:
     plan, counts = results.plan, dict[str, int]()
     for row in rows or []:
         counts[row["status"]] = counts.get(row["status"], 0) + 1
     return {"tool": "tenon", "schema": "tenon.sweep/1", "digest": results.digest,
             "folder": results.folder, "format": results.format, "cases": plan.case_count,
             "chunks": plan.chunk_count, "complete": path is not None, "result": path,
+            "report": report,
             "statuses": counts,
             "failed": [{key: row[key] for key in ("case", "status", "time", "rule", "error")}
                        for row in failures(rows or [])]}
@@ -125,6 +129,8 @@ def _print(summary: dict[str, Any]) -> None:
     print(f"{summary['result']}: {summary['cases']} cases, {told}")
     for row in summary["failed"][:SHOWN]:
         print(f"  case {row['case']} {row['status']} at {row['time']:g} s: {row['error']}")
+    if summary["report"]:
+        print(summary["report"])
     if len(summary["failed"]) > SHOWN:
         print(f"  ... {len(summary['failed']) - SHOWN} more, see the column status")
 
@@ -157,7 +163,8 @@ def _run(arguments: argparse.Namespace, make_runner: MakeRunner | None,
         shown.end()
     path = results.merge()
     rows = results.rows() if path else None
-    summary = _summary(results, rows, path)
+    report = write_report(results, rows) if arguments.report and rows is not None else None
+    summary = _summary(results, rows, path, report)
     if arguments.json:
         print(json.dumps({"ok": not summary["failed"], **summary}))
     else:

@@ -13,10 +13,11 @@ import hashlib
 import json
 import math
 import os
-import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
+
+from .._toml import Fault, Reader, is_number, rows_of
 
 MAX_PLAN_BYTES = 1 << 20
 MAX_CASES = 1_000_000
@@ -29,20 +30,6 @@ DRAWS = ("grid", "random", "sobol")
 DISTRIBUTIONS = ("uniform", "log", "normal")
 TAKES = ("final", "first", "min", "max", "mean")
 RESERVED = ("case", "status", "time", "rule", "error")
-
-
-@dataclasses.dataclass(frozen=True)
-class Fault:
-    """One thing that is wrong with a plan. `row` names the row of the plan ("vary 2"), `line` is
-    where that row begins in the file, 0 where there is no line."""
-
-    row: str
-    line: int
-    message: str
-
-    def __str__(self) -> str:
-        place = f":{self.line}" if self.line else ""
-        return f"{place}: {self.row}: {self.message}" if self.row else f"{place}: {self.message}"
 
 
 class PlanError(ValueError):
@@ -137,74 +124,13 @@ class Plan:
         return os.path.join(self.folder, asset)
 
 
-class _Reader:
-    """Collects the faults of one plan while it is read."""
-
-    def __init__(self, text: str) -> None:
-        self.lines = text.split("\n")
-        self.faults: list[Fault] = []
-        self.row = ""
-        self.line = 0
-
-    def at(self, table: str, number: int) -> None:
-        """What follows is about the row `number` (from 1) of the tables [[table]]."""
-        self.row, self.line = f"{table} {number}", 0
-        head = re.compile(rf"\s*\[\[\s*{table}\s*\]\]")
-        found = [at for at, line in enumerate(self.lines, 1) if head.match(line)]
-        if number <= len(found):
-            self.line = found[number - 1]
-
-    def at_top(self, key: str = "") -> None:
-        self.row, self.line = "", 0
-        for at, line in enumerate(self.lines, 1):
-            if key and re.match(rf"\s*{re.escape(key)}\s*=", line):
-                self.line = at
-                break
-
-    def fault(self, message: str) -> None:
-        self.faults.append(Fault(self.row, self.line, message))
-
-    def unknown(self, table: Mapping[str, Any], known: Iterable[str]) -> None:
-        known = tuple(known)
-        for key in table:
-            if key not in known:
-                self.fault(f'there is no "{key}" here; there are {", ".join(known)}')
-
-    def text(self, table: Mapping[str, Any], key: str, default: str | None = None) -> str | None:
-        value = table.get(key, default)
-        if value is not None and (not isinstance(value, str) or not value):
-            self.fault(f"{key} is {value!r}; expected a text")
-            return default
-        return value
-
-    def number(self, table: Mapping[str, Any], key: str, default: float, low: float,
-               high: float) -> float:
-        value = table.get(key, default)
-        if not _is_number(value) or not low <= value <= high:
-            self.fault(f"{key} is {value!r}; expected a number from {low:g} to {high:g}")
-            return default
-        return float(value)
-
-    def whole(self, table: Mapping[str, Any], key: str, default: int, low: int, high: int) -> int:
-        value = table.get(key, default)
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            self.fault(f"{key} is {value!r}; expected a whole number from {low} to {high}")
-            return default
-        return value
-
-
-def _is_number(value: Any) -> bool:
-    return (not isinstance(value, bool) and isinstance(value, (int, float))
-            and math.isfinite(value))
-
-
-def _range_of(reader: _Reader, row: Mapping[str, Any], draw: str) -> tuple[Any, ...] | None:
+def _range_of(reader: Reader, row: Mapping[str, Any], draw: str) -> tuple[Any, ...] | None:
     """Low and high of `random` and `sobol`."""
     value, distribution = row[draw], row.get("distribution", "uniform")
     if distribution not in DISTRIBUTIONS:
         reader.fault(f"distribution is {distribution!r}; there are {', '.join(DISTRIBUTIONS)}")
         return None
-    if not isinstance(value, list) or len(value) != 2 or not all(map(_is_number, value)):
+    if not isinstance(value, list) or len(value) != 2 or not all(map(is_number, value)):
         reader.fault(f"{draw} is {value!r}; expected two numbers")
         return None
     low, high = map(float, value)
@@ -219,7 +145,7 @@ def _range_of(reader: _Reader, row: Mapping[str, Any], draw: str) -> tuple[Any, 
     return low, high
 
 
-def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
+def _grid_of(reader: Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
     """A list of values, or {from, to, count}."""
     value = row["grid"]
     if isinstance(value, dict):
@@ -227,7 +153,7 @@ def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
         low: Any = value.get("from")
         high: Any = value.get("to")
         count = value.get("count")
-        if (not _is_number(low) or not _is_number(high) or isinstance(count, bool)
+        if (not is_number(low) or not is_number(high) or isinstance(count, bool)
                 or not isinstance(count, int) or not 1 <= count <= MAX_CASES):
             reader.fault("a grid has from, to and a count of at least 1")
             return None
@@ -236,22 +162,22 @@ def _grid_of(reader: _Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
     if not isinstance(value, list) or not value:
         reader.fault(f"grid is {value!r}; expected a list of values, or from, to and count")
         return None
-    if not all(_is_number(each) or isinstance(each, (str, bool)) for each in value):
+    if not all(is_number(each) or isinstance(each, (str, bool)) for each in value):
         reader.fault("a value of a grid is a number, a text or true or false")
         return None
-    return tuple(float(each) if _is_number(each) else each for each in value)
+    return tuple(float(each) if is_number(each) else each for each in value)
 
 
 def _wrong_values(kind: str, values: tuple[Any, ...]) -> str | None:
     """What is wrong with values of that kind."""
     if kind in ("asset", "engine") and not all(isinstance(each, str) for each in values):
         return f"{kind} varies over texts"
-    if kind in ("scale", "value", "target") and not all(map(_is_number, values)):
+    if kind in ("scale", "value", "target") and not all(map(is_number, values)):
         return f"{kind} varies over numbers"
     return None
 
 
-def _read_vary(reader: _Reader, row: Mapping[str, Any]) -> Vary | None:
+def _read_vary(reader: Reader, row: Mapping[str, Any]) -> Vary | None:
     reader.unknown(row, ("name", "distribution", *TARGETS, *DRAWS))
     kinds = [kind for kind in TARGETS if kind in row]
     draws = [draw for draw in DRAWS if draw in row]
@@ -279,7 +205,7 @@ def _read_vary(reader: _Reader, row: Mapping[str, Any]) -> Vary | None:
                 reader.line)
 
 
-def _read_metric(reader: _Reader, row: Mapping[str, Any]) -> Metric | None:
+def _read_metric(reader: Reader, row: Mapping[str, Any]) -> Metric | None:
     reader.unknown(row, ("name", "of", "take"))
     of, take = reader.text(row, "of"), reader.text(row, "take", "final")
     if of is None:
@@ -291,15 +217,7 @@ def _read_metric(reader: _Reader, row: Mapping[str, Any]) -> Metric | None:
     return Metric(reader.text(row, "name", f"{take}({of})") or of, of, take, reader.line)
 
 
-def _rows(reader: _Reader, table: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
-    rows = table.get(key, [])
-    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-        reader.fault(f"{key} is a list of tables: [[{key}]]")
-        return []
-    return rows
-
-
-def _check_names(reader: _Reader, vary: list[Vary], metrics: list[Metric]) -> None:
+def _check_names(reader: Reader, vary: list[Vary], metrics: list[Metric]) -> None:
     seen: set[str] = set(RESERVED)
     rows: list[Vary | Metric] = [*vary, *metrics]
     for number, row in enumerate(rows):
@@ -317,17 +235,17 @@ _KEYS = ("asset", "engine", "physics", "duration", "step", "sample", "samples", 
 def plan_from_table(table: Mapping[str, Any], folder: str, path: str = "plan",
                     text: str = "") -> Plan:
     """The plan that a table says, as TOML gives it. Errors: PlanError with all faults."""
-    reader = _Reader(text)
+    reader = Reader(text)
     reader.unknown(table, _KEYS)
     reader.at_top("asset")
     asset = reader.text(table, "asset")
     rows: list[Vary] = []
-    for number, row in enumerate(_rows(reader, table, "vary"), 1):
+    for number, row in enumerate(rows_of(reader, table, "vary"), 1):
         reader.at("vary", number)
         if (read := _read_vary(reader, row)) is not None:
             rows.append(read)
     metrics: list[Metric] = []
-    for number, row in enumerate(_rows(reader, table, "metric"), 1):
+    for number, row in enumerate(rows_of(reader, table, "metric"), 1):
         reader.at("metric", number)
         if (metric := _read_metric(reader, row)) is not None:
             metrics.append(metric)
@@ -380,7 +298,6 @@ def load_plan(path: str, more: Iterable[str] = (), **changes: Any) -> Plan:
         rows = table.get("vary", [])
         table["vary"] = [*(rows if isinstance(rows, list) else []), *given]
     return plan_from_table(table, folder, path, text)
-
 
 
 def vary_from_text(text: str, path: str = "--vary") -> dict[str, Any]:

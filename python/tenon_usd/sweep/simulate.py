@@ -13,10 +13,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from .. import __version__, engines, open as open_stage
+from .._toml import Fault
 from ..errors import Error, FileError, NotFoundError
 from ..world import World
 from .cases import Case, Cases
-from .plan import Fault, Metric, Plan, PlanError, Vary
+from .plan import Metric, Plan, PlanError, Vary
 from .signals import UnknownName, find_setter, find_signal, outputs_of
 from .work import FAILED, MISSING, OK, UNSTABLE, Outcome
 

@@ -8,7 +8,9 @@ import json
 import os
 from typing import Any
 
-from ..tables import Table
+import numpy as np
+
+from ..tables import Table, _extra, _told
 from .chunks import FolderError, Results, columns_of
 from .plan import Metric, Plan, Vary
 
@@ -43,6 +45,47 @@ def units_of(plan: Plan) -> dict[str, str]:
     return {name: unit for name, unit in units.items() if unit}
 
 
+class SweepTable(Table):
+    """The results of a sweep: a row for each case."""
+
+    def __init__(self, plan: Plan, columns: dict[str, Any]) -> None:
+        super().__init__(columns, units_of(plan))
+        self.plan = plan
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset: each grid of the plan is a dimension with its values, and "sample"
+        another where there are several; what is drawn is along "sample" alone. Cases that are not
+        there are NaN, or empty texts. Raises MissingError without xarray."""
+        xr = _extra("xarray")
+        grids = [vary for vary in self.plan.vary if vary.draw == "grid"]
+        shape = [len(vary.values) for vary in grids]
+        names = [vary.name for vary in grids]
+        if self.plan.samples > 1 or not grids:
+            shape.append(self.plan.samples)
+            names.append("sample")
+        drawn = {vary.name for vary in self.plan.vary if vary.draw != "grid"}
+        cases = np.asarray(self.columns["case"], dtype=np.int64)
+        found: dict[str, Any] = {}
+        for name, values in self.columns.items():
+            if name == "case" or name in names:
+                continue
+            array = np.asarray(values)
+            if name in drawn:
+                whole = np.full(self.plan.samples, np.nan)
+                whole[cases % self.plan.samples] = array
+                dims = ["sample"] if "sample" in names else []
+                found[name] = (dims, whole if dims else whole[0], _told(self, name))
+                continue
+            empty: Any = np.nan if array.dtype.kind == "f" else ""
+            whole = np.full(self.plan.case_count, empty, dtype=array.dtype)
+            whole[cases] = array
+            found[name] = (names, whole.reshape(shape), _told(self, name))
+        coordinates = {vary.name: (vary.name, list(vary.values), _told(self, vary.name))
+                       for vary in grids}
+        return xr.Dataset(found, coordinates, {"asset": self.plan.asset,
+                                               "engine": self.plan.engine or ""})
+
+
 def _opened(folder: str) -> Results:
     path = os.path.join(folder, "plan.json")
     try:
@@ -58,7 +101,7 @@ def _opened(folder: str) -> Results:
     return Results(folder, plan, digest)
 
 
-def read(folder: str | os.PathLike[str]) -> Table:
+def read(folder: str | os.PathLike[str]) -> SweepTable:
     """The results of `tenon sweep -o FOLDER`: a row for each case that is there, in their order.
 
     The merged file where there is one, else the chunks that are. Raises FolderError where the
@@ -70,4 +113,4 @@ def read(folder: str | os.PathLike[str]) -> Table:
         chunks = map(results.read_chunk, range(results.plan.chunk_count))
         rows = [row for chunk in chunks for row in chunk or ()]
     columns = {name: [row[name] for row in rows] for name, _ in columns_of(results.plan)}
-    return Table(columns, units_of(results.plan))
+    return SweepTable(results.plan, columns)
