@@ -335,7 +335,9 @@ Diagnostics check_files(const AssetFiles& files) { return FileChecker(files).run
 Diagnostics check_variant(const stage::Stage& stage, const std::string& variant) {
   Diagnostics found;
   each_prim(stage, [&](const stage::Prim& prim) {
-    for (const Token name : prim.authored_property_names()) {
+    // The joints of a named pose are those of the variants with physics.
+    const bool is_bare = variant == kNoVariant && prim.type_name() == kNamedPoseType;
+    for (const Token name : is_bare ? std::vector<Token>() : prim.authored_property_names()) {
       const bool relationship = prim.is_relationship(name);
       for (const Path& target :
            relationship ? prim.relationship(name).targets() : prim.attribute(name).connections()) {

@@ -155,6 +155,8 @@ constexpr OwnerRow kProperties[] = {
 constexpr Ownership kGeometry{Role::Geometries, RoleSet(Role::Variant)};
 constexpr Ownership kMaterial{Role::Materials, RoleSet(Role::Base, Role::Instances, Role::Variant)};
 constexpr Ownership kBase{Role::Base, RoleSet(Role::Instances, Role::Variant)};
+/// With all that it says, its place included.
+constexpr Ownership kNamedPose{Role::Robot, RoleSet(Role::Base, Role::Physics, Role::Variant)};
 
 template <std::size_t count>
 const OwnerRow* find_row(const OwnerRow (&rows)[count], std::string_view name) {
@@ -279,6 +281,9 @@ std::string_view instance_material_scope(Names names) {
 }
 
 Ownership owner_of_type(Token type) {
+  if (type == kNamedPoseType) {
+    return kNamedPose;
+  }
   if (type == "Mesh") {
     return kGeometry;
   }
@@ -289,9 +294,9 @@ Ownership owner_of_type(Token type) {
     return kMaterial;
   }
   if (type == "Scope" || type == "Xform") {
-    // Joints are in a scope; materials of an instance in another.
+    // Joints are in a scope; materials of an instance and named poses of a robot in others.
     return {Role::Base, RoleSet(Role::Interface, Role::Geometries, Role::Materials, Role::Instances,
-                                Role::Physics, Role::Physx, Role::Mujoco, Role::Newton,
+                                Role::Robot, Role::Physics, Role::Physx, Role::Mujoco, Role::Newton,
                                 Role::Engine, Role::Variant)};
   }
   const OwnerRow* row = find_row(kApis, type.view());
@@ -308,6 +313,9 @@ Ownership owner_of_api(Token api) {
 }
 
 Ownership owner_of_property(Token property, Token type, std::span<const Token> apis) {
+  if (type == kNamedPoseType) {
+    return kNamedPose;
+  }
   if (const OwnerRow* row = find_row(kProperties, property.view())) {
     return row->ownership;
   }

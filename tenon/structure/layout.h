@@ -84,6 +84,9 @@ std::string_view instance_material_scope(Names names);
 inline constexpr std::string_view kPhysicsScope = "Physics";
 inline constexpr std::string_view kGeometryScope = "Geometry";
 inline constexpr std::string_view kMaterialScope = "Materials";
+/// Below the robot's prim, in the robot's file: postures by name, and their type.
+inline constexpr std::string_view kNamedPosesScope = "Named_Poses";
+inline constexpr std::string_view kNamedPoseType = "IsaacNamedPose";
 /// The variant set that chooses an engine, and its variant without physics.
 inline constexpr std::string_view kPhysicsSet = "Physics";
 inline constexpr std::string_view kNoVariant = "none";

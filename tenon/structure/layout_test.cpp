@@ -64,6 +64,8 @@ TEST(Layout, PropertiesGoByPrefixThenBySchema) {
   EXPECT_EQ(owner_of_property("tenon:mujoco:sensor:noise", "TenonMujocoSensor", {}).owner,
             Role::Mujoco);
   EXPECT_EQ(owner_of_type("TenonMujocoSensor").owner, Role::Mujoco);
+  EXPECT_EQ(owner_of_type("IsaacNamedPose").owner, Role::Robot);
+  EXPECT_EQ(owner_of_property("xformOp:translate", "IsaacNamedPose", {}).owner, Role::Robot);
 }
 
 TEST(Layout, ArcsLeadOneWay) {

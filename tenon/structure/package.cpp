@@ -117,6 +117,17 @@ Result<void> store_layers(Package& package) {
   return store_layer(package.interface, package.files.at(package.interface), &digests);
 }
 
+Result<void> add_stored_file(Package& package, const std::string& name, std::string contents) {
+  package.files[name].bytes = bytes::FileBytes::own(std::move(contents));
+  Digests digests;
+  for (const auto& [other, file] : package.files) {
+    if (other != package.interface) {
+      digests.emplace(other, content_digest(file.bytes->text()));
+    }
+  }
+  return store_layer(package.interface, package.files.at(package.interface), &digests);
+}
+
 Result<void> write_package(const Package& package, const std::string& folder,
                            const WriteOptions& options) {
   std::map<std::string, std::string_view> files;

@@ -51,6 +51,8 @@ Result<stage::Stage> open_package(const Package& package,
 /// interface notes the files written (written_note.h). Errors: Invalid "structure.differs" with the
 /// file, where a layer cannot be written or its bytes cannot be read.
 Result<void> store_layers(Package& package);
+/// Adds a file that is no layer to a package with its layers stored; the interface notes it.
+Result<void> add_stored_file(Package& package, const std::string& name, std::string contents);
 
 /// What may be done to a folder that holds something.
 struct WriteOptions {

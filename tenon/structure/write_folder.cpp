@@ -29,7 +29,8 @@ using Contents = std::map<std::string, std::string_view>;
 
 bool is_known_place(const std::string& name) {
   if (name.starts_with("Textures/") || name.starts_with("Materials/") ||
-      name.starts_with("Meshes/") || is_copy_place(name)) {
+      name.starts_with("Meshes/") || name.starts_with("runnables/physics/") ||
+      name.starts_with(".thumbs/256x256/") || is_copy_place(name)) {
     return true;
   }
   return role_of_file_name(name) != Role::Other;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "tenon/structure/layer_tree.h"
+#include "tenon/structure/make/default_material.h"
+#include "tenon/structure/make/one_mesh.h"
 #include "tenon/structure/make/schema_generation.h"
 #include "tenon/structure/make/sleeping_colliders.h"
 #include "tenon/structure/proof/proof.h"
@@ -34,6 +36,20 @@ Result<void> change_generation(SourceViews& views, SchemaGeneration generation,
     }
   }
   return {};
+}
+
+Result<std::map<Path, Path>> change_for_simready(SourceViews& views,
+                                                 const ContentPhysics& physics) {
+  TENON_TRY(auto united, unite_coincident_meshes(views, physics));
+  for (SourceView& view : views.physics) {
+    draw_by_meshes(view.content);
+    bind_default_material(view.content);
+  }
+  for (OtherVariant& other : views.others) {
+    draw_by_meshes(other.content);
+    bind_default_material(other.content);
+  }
+  return united;
 }
 
 namespace {

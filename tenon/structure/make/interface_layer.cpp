@@ -57,6 +57,9 @@ Layer interface_layer(const Layer& content, const InterfaceParts& parts, std::st
     }
     add_variant(layer, robot, variant);
   };
+  for (const InterfaceVariant& variant : parts.runtimes) {
+    add(variant);
+  }
   for (const InterfaceVariant& variant : parts.physics) {
     add(variant);
   }

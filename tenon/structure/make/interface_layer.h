@@ -20,7 +20,8 @@ struct InterfaceVariant {
 
 struct InterfaceParts {
   Token robot;
-  std::string base;  ///< file names, relative to the asset's folder
+  std::string base;                             ///< file names, relative to the asset's folder
+  std::vector<InterfaceVariant> runtimes = {};  ///< of sets that are stronger than "Physics"
   std::vector<InterfaceVariant> physics;
   std::vector<InterfaceVariant> others;
   std::map<std::string, std::string> selections;

@@ -17,6 +17,7 @@
 #include "tenon/structure/make/local_materials.h"
 #include "tenon/structure/make/mesh_wrappers.h"
 #include "tenon/structure/make/robot_metadata.h"
+#include "tenon/structure/make/runtimes.h"
 #include "tenon/structure/make/sleeping_colliders.h"
 #include "tenon/structure/make/source_views.h"
 #include "tenon/structure/make/split.h"
@@ -35,6 +36,13 @@ struct View {
   Layer plain;                ///< what the source has of it
   Layer content;              ///< with wrappers, local materials and robot metadata
   std::optional<Layer> over;  ///< its own layer; none: nothing to say
+};
+
+/// The physics of the source for one runtime, and what of it is said over the neutral one.
+struct RuntimeView {
+  const Runtime* runtime;
+  Layer content;
+  Layer over;
 };
 
 /// Whose content a variant holds. A variant of another name is for an unknown engine.
@@ -75,11 +83,23 @@ View* view_of(std::vector<View>& views, std::string_view variant) {
   return found == views.end() ? nullptr : &*found;
 }
 
+std::vector<const Layer*> contents_of(const std::vector<View>& views) {
+  std::vector<const Layer*> all;
+  for (const View& view : views) {
+    if (view.role != Role::Base) {
+      all.push_back(&view.content);
+    }
+  }
+  all.push_back(&views.front().content);
+  return all;
+}
+
 /// The originals to verify a package against.
 struct Wanted {
   const AssetSource& source;
   const SourceViews& sources;
   const std::vector<View>& views;
+  const std::vector<RuntimeView>& runtimes;
   const MeshMoves& moves;
   const std::set<Path>& colliders;
   const KinematicOrder& order;
@@ -96,6 +116,9 @@ class Prover {
   Result<void> run() const {
     for (const View& view : wanted_.views) {
       TENON_CHECK(prove(view));
+    }
+    for (const RuntimeView& runtime : wanted_.runtimes) {
+      TENON_CHECK(prove(runtime));
     }
     for (const OtherVariant& other : wanted_.sources.others) {
       TENON_CHECK(prove(other));
@@ -136,6 +159,22 @@ class Prover {
                  : Result<void>();
   }
 
+  Result<void> prove(const RuntimeView& view) const {
+    const std::string set(view.runtime->set);
+    std::map<std::string, std::string> selections{
+        {std::string(kPhysicsSet), std::string(role_name(Role::Physics))},
+        {set, std::string(kEnabled)}};
+    for (const std::string& other : wanted_.sources.set_order) {
+      selections.emplace(other, "");
+    }
+    TENON_TRY(const stage::Stage stage,
+              open_package(asset_.package, selections, wanted_.source.max_work));
+    TENON_TRY(Layer found, content_of(stage));
+    const auto where = compare_contents(with_collected_assets(view.content, wanted_.assets), found);
+    return where ? Result<void>(differs(set + "=" + std::string(kEnabled), *where, "the stage"))
+                 : Result<void>();
+  }
+
   Result<void> prove(const OtherVariant& other) const {
     const std::string chosen = chosen_variant();
     const auto view = std::find_if(wanted_.views.begin(), wanted_.views.end(),
@@ -151,6 +190,10 @@ class Prover {
     TENON_TRY(const stage::Stage stage, open_view(other.set, other.variant));
     TENON_TRY(Layer found, content_of(stage));
     keep_roles(found, roles_in(role));
+    if (!wanted_.runtimes.empty()) {  // which Newton's schemas are in
+      drop_newton(plain);
+      drop_newton(found);
+    }
     const auto where = compare_contents(with_collected_assets(plain, wanted_.assets), found);
     return where ? Result<void>(differs(other.set + "=" + other.variant, *where, "the stage"))
                  : Result<void>();
@@ -171,7 +214,11 @@ class Maker {
     add_engines();
     TENON_CHECK(change_generation(sources_, options_.schema, physics_, diagnostics_));
     TENON_TRY(links_, move_links(sources_, options_.links, physics_, diagnostics_));
+    if (options_.simready) {
+      TENON_TRY(united_, change_for_simready(sources_, physics_));
+    }
     make_views();
+    make_runtimes();
     TENON_CHECK(give_wrappers());
     make_base();
     make_overs();
@@ -181,7 +228,7 @@ class Maker {
     list_moves();
     assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
     TENON_CHECK(store_layers(asset_.package));
-    const Wanted wanted{source_,    sources_, views_,  *moves_,
+    const Wanted wanted{source_,    sources_, views_,  runtimes_,     *moves_,
                         colliders_, order_,   assets_, options_.names};
     TENON_CHECK(Prover(asset_, wanted, physics_).run());
     return std::move(asset_);
@@ -244,25 +291,40 @@ class Maker {
     }
   }
 
-  View* find(std::string_view variant) { return view_of(views_, variant); }
+  /// Each runtime starts with its own set of the source, else with its variant of "Physics", else
+  /// with what is for all engines. That is neutral from then on.
+  void make_runtimes() {
+    View* physics = view_of(views_, role_name(Role::Physics));
+    if (!options_.simready || physics == nullptr) {
+      return;
+    }
+    for (const Runtime& runtime : known_runtimes()) {
+      const Layer* own = enabled_content(sources_.others, runtime);
+      const SourceView* view = sources_.find(role_name(runtime.role));
+      view = view != nullptr ? view : view_with(runtime.role);
+      view = view != nullptr ? view : view_with(Role::Physics);
+      Layer content = own != nullptr ? *own : view->content;
+      keep_roles(content, roles_in(runtime.role));
+      runtimes_.push_back({&runtime, std::move(content), Layer("anon:over.usda")});
+    }
+    std::erase_if(sources_.others,
+                  [](const OtherVariant& other) { return is_runtime_set(other.set); });
+    drop_newton(physics->plain);
+    drop_newton(physics->content);
+  }
 
   // Wrappers, local materials, metadata: the same for all.
 
-  std::vector<const Layer*> contents() const {
-    std::vector<const Layer*> all;
-    for (const View& view : views_) {
-      if (view.role != Role::Base) {
-        all.push_back(&view.content);
-      }
-    }
-    all.push_back(&views_.front().content);
-    return all;
-  }
-
   Result<void> give_wrappers() {
-    moves_.emplace(unite(contents()));
+    moves_.emplace(unite(contents_of(views_)));
     for (View& view : views_) {
       prepare(*moves_, options_.names, view.content);
+    }
+    for (RuntimeView& view : runtimes_) {
+      prepare(*moves_, options_.names, view.content);
+    }
+    if (!runtimes_.empty()) {
+      drop_material_physics(views_.front().content);
     }
     const View* physics = views_.size() > 1 ? &views_[1] : nullptr;
     if (physics == nullptr) {
@@ -272,6 +334,19 @@ class Maker {
     order_ = kinematic_order(physics->content, scene);
     for (View& view : views_) {
       add_robot_metadata(view.content, order_);
+      identify(view.content, order_, options_.robot_type, options_.simready.has_value());
+    }
+    for (RuntimeView& view : runtimes_) {
+      add_robot_metadata(view.content, order_);
+      identify(view.content, order_, options_.robot_type, options_.simready.has_value());
+      view.content = runtime_content(*view.runtime, std::move(view.content));
+    }
+    if (options_.simready) {
+      TENON_TRY(const stage::Stage stage, physics_.stage_of(physics->content));
+      AssetFacts facts = *options_.simready;
+      facts.name = facts.name.empty() ? interface_name() : facts.name;
+      metadata_ = simready_metadata(facts, physics->content, stage, scene);
+      tell_runtimes(metadata_, Path::absolute_root().child(sources_.robot));
     }
     return {};
   }
@@ -279,7 +354,7 @@ class Maker {
   // What all share, and what each lays over it.
 
   void make_base() {
-    colliders_ = pure_colliders(unite(contents()));
+    colliders_ = pure_colliders(unite(contents_of(views_)));
     base_ = views_.front().content;
     put_to_sleep(base_, colliders_);
     put_to_sleep(views_.front().content, colliders_);
@@ -287,17 +362,21 @@ class Maker {
       fill_sleeping(base_, view.content, colliders_);
     }
     put_robot_order_first(base_);
-    const View* physics = find(role_name(Role::Physics));
+    const View* physics = view_of(views_, role_name(Role::Physics));
     for (View& view : views_) {
       if (physics != nullptr && view.role != Role::Physics) {
         order_like(view.content, physics->content);  // what the engine's layer is put over
       }
       order_like(view.content, base_);
     }
+    for (RuntimeView& view : runtimes_) {
+      order_like(view.content, physics->content);
+      order_like(view.content, base_);
+    }
   }
 
   void make_overs() {
-    const View* physics = find(role_name(Role::Physics));
+    const View* physics = view_of(views_, role_name(Role::Physics));
     Layer neutral = base_;
     for (View& view : views_) {
       if (view.role == Role::Base) {
@@ -316,6 +395,12 @@ class Maker {
         neutral = view.content;
         add_sleeping(neutral, base_);
       }
+    }
+    for (RuntimeView& view : runtimes_) {
+      view.over =
+          difference(neutral, view.content, identifier_in_package(std::string(view.runtime->file)));
+      make_prim(view.over, Path::absolute_root().child(sources_.robot));
+      note_touched(view.over);
     }
   }
 
@@ -350,8 +435,6 @@ class Maker {
     return file_of_variant(std::string(kPhysicsSet), view.variant);
   }
 
-  // Files.
-
   Result<void> make_files() {
     split_.names = options_.names;
     if (options_.overridable_colliders) {
@@ -367,7 +450,7 @@ class Maker {
     put(Role::Instances, std::move(files.instances));
     put(Role::Geometries, std::move(files.geometries));
     put(Role::Materials, std::move(files.materials));
-    const View* physics = find(role_name(Role::Physics));
+    const View* physics = view_of(views_, role_name(Role::Physics));
     for (View& view : views_) {
       if (!view.over) {
         continue;
@@ -377,6 +460,9 @@ class Maker {
       }
       put_file(file_of(view), *view.over, true);
     }
+    for (const RuntimeView& view : runtimes_) {
+      put_file(std::string(view.runtime->file), view.over, true);
+    }
     for (const auto& [name, layer] : other_files_) {
       put_file(name, layer, true);
     }
@@ -384,8 +470,13 @@ class Maker {
   }
 
   void put(Role role, Layer layer) {
-    if (prims_below(layer).empty() && role != Role::Base) {
+    const bool empty = prims_below(layer).empty() && role != Role::Base;
+    if (empty && (!options_.simready || root_scope(role).empty())) {
       return;
+    }
+    if (empty) {  // SimReady looks for the file
+      define_prim(layer, Path::absolute_root().child(Token(std::string(root_scope(role)))),
+                  "Scope");
     }
     put_file(file_name(role, options_.names), std::move(layer), root_scope(role).empty());
   }
@@ -401,9 +492,13 @@ class Maker {
 
   /// The file that a variant's payload leads to; empty for none.
   std::string payload_of(const View& view) {
-    const View* physics = find(role_name(Role::Physics));
+    const View* physics = view_of(views_, role_name(Role::Physics));
     const bool engine = view.role != Role::Base && physics != nullptr && physics->over;
     return view.over ? file_of(view) : (engine ? file_of(*physics) : "");
+  }
+
+  std::string interface_name() const {
+    return options_.name.empty() ? sources_.robot.str() : options_.name;
   }
 
   void make_interface() {
@@ -421,9 +516,18 @@ class Maker {
       }
     }
     interface_.selections[std::string(kPhysicsSet)] = asset_.selection;
-    const std::string name = options_.name.empty() ? sources_.robot.str() : options_.name;
+    for (const RuntimeView& view : runtimes_) {
+      const std::string set(view.runtime->set);
+      interface_.runtimes.push_back({set, std::string(kDisabled), ""});
+      interface_.runtimes.push_back({set, std::string(kEnabled), std::string(view.runtime->file)});
+      interface_.selections[set] = kDisabled;
+    }
+    const std::string name = interface_name();
     asset_.package.interface = name + ".usda";
     Layer layer = interface_layer(base_, interface_, identifier_in_package(name + ".usda"));
+    if (options_.simready) {
+      add_metadata(layer, metadata_);
+    }
     PackageFile file;
     file.layer = std::make_shared<Layer>(std::move(layer));
     asset_.package.files[asset_.package.interface] = std::move(file);
@@ -435,6 +539,10 @@ class Maker {
     for (const auto& [from, to] : links) {
       asset_.moved.emplace(first_place(from, sources_.moved), to);
     }
+    for (const auto& [from, to] : united_) {
+      asset_.moved.emplace(first_place(first_place(from, links), sources_.moved),
+                           moves_->moved(to));
+    }
     for (const auto& [from, to] : moves_->all()) {
       asset_.moved.emplace(first_place(first_place(from, links), sources_.moved), to);
     }
@@ -445,12 +553,15 @@ class Maker {
 
   /// The source's, where it leads to something; else the strongest that does.
   std::string selection() {
-    if (find(sources_.selection) != nullptr) {
+    if (!runtimes_.empty()) {
+      return std::string(role_name(Role::Physics));  // for no engine, as each has its own set
+    }
+    if (view_of(views_, sources_.selection) != nullptr) {
       return sources_.selection;
     }
     for (const std::string_view variant : known_physics_variants()) {
       std::string name(variant);
-      const View* view = find(name);
+      const View* view = view_of(views_, name);
       if (view != nullptr && view->over && !prims_below(*view->over).empty()) {
         return name;
       }
@@ -463,7 +574,10 @@ class Maker {
   Diagnostics& diagnostics_;
   SourceViews sources_;
   std::vector<View> views_;  // "none" first, then "physics" where it is
+  std::vector<RuntimeView> runtimes_;
+  layer::Dictionary metadata_;
   std::optional<LinkMoves> links_;
+  std::map<Path, Path> united_;  // colliders and what is drawn in their place
   std::optional<MeshMoves> moves_;
   std::set<Path> colliders_;
   KinematicOrder order_;

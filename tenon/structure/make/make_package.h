@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "tenon/compose/layer_opener.h"
 #include "tenon/layer/layer.h"
 #include "tenon/structure/layout.h"
+#include "tenon/structure/make/asset_facts.h"
 #include "tenon/structure/package.h"
 
 namespace tenon::structure {
@@ -62,6 +64,12 @@ struct StructureOptions {
   /// Engines that get a variant and a layer over physics.usda, also where nothing is for them
   /// alone.
   std::vector<std::string> engines = {};
+  /// isaac:robotType of the default prim, one of known_robot_types(); empty: as it is.
+  std::string robot_type = {};
+  /// As SimReady wants assets: a variant set for each engine (runtimes.h), UsdPhysics alone in
+  /// physics.usda, with what materials have of it, meshes that are drawn and collide in one place
+  /// once (one_mesh.h), and metadata.
+  std::optional<AssetFacts> simready = std::nullopt;
 };
 
 struct StructuredAsset {
@@ -84,6 +92,8 @@ struct StructuredAsset {
 /// colliders that are not visible are switched off there. Meshes get a wrapper where they have
 /// none. Prims beside the default prim come below it, a PhysicsScene for one. Robots get
 /// IsaacRobotAPI with links and joints in kinematic order where they have none.
+/// With `simready` the variant "physics" is what is for no engine, and each runtime's set is proven
+/// as the others are, over it.
 ///
 /// Errors: ErrorCode::NotFound without a default prim; Invalid "structure.differs" when the proof
 /// fails, with the prim or the file where it does; those of opening. Diagnostics:

@@ -118,6 +118,10 @@ void add_robot_metadata(Layer& content, const KinematicOrder& order) {
   add_api(content, robot, Token("IsaacRobotAPI"));
   add_list(content, robot.property("isaac:physics:robotLinks"), order.links);
   add_list(content, robot.property("isaac:physics:robotJoints"), order.joints);
+  add_part_apis(content, order);
+}
+
+void add_part_apis(Layer& content, const KinematicOrder& order) {
   for (const Path& link : order.links) {
     if (content.has(link) && is_active(content, link)) {
       add_api(content, link, Token("IsaacLinkAPI"));

@@ -24,4 +24,7 @@ KinematicOrder kinematic_order(const layer::Layer& content, const scene::Physics
 /// are in the content.
 void add_robot_metadata(layer::Layer& content, const KinematicOrder& order);
 
+/// The same for the links and joints alone.
+void add_part_apis(layer::Layer& content, const KinematicOrder& order);
+
 }  // namespace tenon::structure
