@@ -49,17 +49,6 @@ void turn_ball(const scene::JointDofs& dofs, const Vec3d& turn, std::vector<doub
   }
 }
 
-void move_joint(const scene::JointDofs& dofs, const Eigen::VectorXd& step, std::size_t column,
-                std::vector<double>& joint) {
-  for (std::size_t i = 0; i < dofs.free.size(); ++i) {
-    joint[i] += step[static_cast<Eigen::Index>(column + i)];
-  }
-  if (dofs.ball) {
-    const auto first = static_cast<Eigen::Index>(column + dofs.free.size());
-    turn_ball(dofs, {{step[first], step[first + 1], step[first + 2]}}, joint);
-  }
-}
-
 /// How far each column may move in a step; those of floating bodies do not.
 Eigen::VectorXd weights_of(const Multibody& multibody, const scene::JointTree& tree) {
   Eigen::VectorXd weights =
@@ -77,6 +66,17 @@ Eigen::VectorXd weights_of(const Multibody& multibody, const scene::JointTree& t
 }
 
 }  // namespace
+
+void move_joint(const scene::JointDofs& dofs, const Eigen::VectorXd& step, std::size_t column,
+                std::vector<double>& joint) {
+  for (std::size_t i = 0; i < dofs.free.size(); ++i) {
+    joint[i] += step[static_cast<Eigen::Index>(column + i)];
+  }
+  if (dofs.ball) {
+    const auto first = static_cast<Eigen::Index>(column + dofs.free.size());
+    turn_ball(dofs, {{step[first], step[first + 1], step[first + 2]}}, joint);
+  }
+}
 
 scene::Screw frames_apart(const Multibody& multibody, const Posture& posture, Index joint) {
   const scene::Joint& j = multibody.scene().joints[joint];

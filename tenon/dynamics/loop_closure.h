@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "tenon/dynamics/multibody.h"
 #include "tenon/scene/motion/joint_tree.h"
 
@@ -10,6 +15,11 @@ namespace tenon::dynamics {
 /// By how much the frame of body1 is away from the nearest place that the joint allows: a rotation
 /// vector [rad] and a translation [m], world axes.
 scene::Screw frames_apart(const Multibody& multibody, const Posture& posture, Index joint);
+
+/// Moves the coordinates of one joint by what `step` says from `column` on, a ball by a turn about
+/// the axes of frame 0.
+void move_joint(const scene::JointDofs& dofs, const Eigen::VectorXd& step, std::size_t column,
+                std::vector<double>& joint);
 
 /// One Gauss-Newton step of the group's joints toward closed loops. `posture.bodies` are as its
 /// joints have them, and are not moved. False where the loops are closed, or as far as they can be.

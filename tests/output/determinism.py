@@ -48,6 +48,7 @@ RUNS = {
     "manual": "is not about a file",
     "new": [["new", "out.usda"], ["new", "out.usdc"]],
     "pairs": [["pairs", "FILE", "--json"]],
+    "pose": [["pose", "FILE", "--json"]],
     "physics": [["physics", "FILE"], ["physics", "FILE", "--json", "--geometry", "inline"],
                 ["physics", "FILE", "--mass"]],
     "record": "pictures of a browser, which is another program",

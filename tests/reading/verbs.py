@@ -42,6 +42,7 @@ ROWS = {
     "drives": [],
     "pairs": [],
     "physics": [],
+    "pose": [],
     "record": ["-o", "OUT/r.png"],
     "remove": ["/A", "--dry-run"],
     "rename": ["/A", "B", "--dry-run"],
