@@ -152,7 +152,29 @@ void write_gravity(LayerBuilder& builder, Path prim, double scale) {
   }
 }
 
+/// Its mass is that of its colliders, whatever their density.
+bool is_weighed_by_colliders(const Source& source, const LinkPrims& links, Index number) {
+  const robot::Link& link = source.model.links[number];
+  const bool is_root = !source.tree.joint_to_parent[number];
+  return links[number].role == LinkRole::Body && !has_mass(link) && !link.colliders.empty() &&
+         !(is_root && links.carried);
+}
+
 }  // namespace
+
+void note_unused_density(const Source& source, const LinkPrims& links, RobotLayer& layer) {
+  if (!source.options.density) {
+    return;
+  }
+  for (Index number = 0; number < source.model.links.size(); ++number) {
+    if (is_weighed_by_colliders(source, links, number)) {
+      return;
+    }
+  }
+  layer.report({}, Severity::Info, "convert.without-effect",
+               "--density has no effect: each link that moves has a mass, or has no colliders",
+               "leave it out");
+}
 
 void write_body(const Source& source, const LinkPrims& links, Index number, RobotLayer& layer) {
   const robot::RobotModel& model = source.model;

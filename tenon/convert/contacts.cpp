@@ -5,6 +5,32 @@
 namespace tenon::convert {
 
 using layer::Value;
+using robot::Index;
+
+namespace {
+
+/// Bodies that no other body carries.
+std::size_t tree_count(const Source& source, const LinkPrims& links) {
+  const auto& above = source.tree.joint_to_parent;
+  std::size_t count = 0;
+  for (Index link = 0; link < source.model.links.size(); ++link) {
+    const bool is_carried =
+        above[link] && links.host(source.model.joints[*above[link]].parent).role == LinkRole::Body;
+    count += links[link].role == LinkRole::Body && !is_carried ? 1U : 0U;
+  }
+  return count;
+}
+
+bool has_static_colliders(const Source& source, const LinkPrims& links) {
+  for (Index link = 0; link < source.model.links.size(); ++link) {
+    if (links.host(link).role == LinkRole::Static && !source.model.links[link].colliders.empty()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 void write_mujoco_contact(LayerBuilder& builder, Path prim, const robot::MujocoContact& contact,
                           SchemaGeneration generation) {
@@ -61,6 +87,20 @@ void write_contact_classes(PhysicsScope& physics, const std::vector<robot::Conta
                                     std::move(untouched));
     }
   }
+}
+
+void write_robot_apart(const Source& source, const LinkPrims& links, PhysicsScope& physics) {
+  if (source.options.self_collision.value_or(source.model.self_collision)) {
+    return;
+  }
+  const std::size_t trees = source.model.joints.empty() ? 0 : tree_count(source, links);
+  if (trees < 2 && !(trees == 1 && has_static_colliders(source, links))) {
+    return;
+  }
+  const Path group = physics.define("self_collision_off", "PhysicsCollisionGroup");
+  physics.builder().set_relationship(group, "collection:colliders:includes",
+                                     {physics.layer().robot()});
+  physics.builder().set_targets(group, "PhysicsCollisionGroup", "physics:filteredGroups", {group});
 }
 
 }  // namespace tenon::convert

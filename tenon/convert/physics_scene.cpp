@@ -42,6 +42,10 @@ std::string words_of(const robot::MujocoScene& scene) {
 
 void write_scene(const Source& source, PhysicsScope& physics) {
   if (!source.model.mujoco.scene) {
+    if (source.options.scene) {
+      physics.layer().report({}, Severity::Info, "convert.without-effect",
+                             "--scene has no effect: the description has no world", "leave it out");
+    }
     return;
   }
   const robot::MujocoScene& scene = *source.model.mujoco.scene;

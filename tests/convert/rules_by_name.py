@@ -112,11 +112,46 @@ class Rules(unittest.TestCase):
         self.assertEqual([d["severity"] for d in told], ["info"] * 2)
         self.assertIn("at 2700 kg/m^3", told[0]["message"])
 
+    def test_what_nothing_in_the_robot_needs_is_told(self):
+        weighed = self.folder / "weighed.urdf"
+        weighed.write_text('<robot name="w">' + LINK.format("a", MASS) + '<link name="b"/>' +
+                           JOINT.format("j", "fixed", "a", "b", "") + "</robot>", encoding="utf-8")
+        for option in (["--density", "2700"], ["--scene"]):
+            with self.subTest(option[0]):
+                words = ["convert", str(weighed), str(self.asset), "--force", *option]
+                told = subprocess.run([TENON, *words], capture_output=True, text=True, check=True)
+                self.assertIn(f"{option[0]} has no effect: ", told.stderr + told.stdout)
+                code, answer = self.run_tenon(*words)
+                found = [d for d in answer["diagnostics"] if d["rule"] == "convert.without-effect"]
+                self.assertEqual((code, len(found)), (0, 1), answer)
+                self.assertEqual(found[0]["severity"], "info")
+        answer, _ = self.convert("--density", "2700")
+        self.assertNotIn("convert.without-effect", [d["rule"] for d in answer["diagnostics"]])
+
+    def test_options_of_the_other_direction_are_refused(self):
+        self.convert()
+        for option in (["--density", "5"], ["--gains", "1,2"], ["--fix-base"], ["--name", "x"],
+                       ["--start", "valid"], ["--flat"], ["--package", "a=."]):
+            for ending in (".urdf", ".xml"):
+                with self.subTest(option[0] + ending):
+                    code, answer = self.run_tenon("convert", self.asset,
+                                                  self.folder / ("back" + ending), *option)
+                    [error] = answer["diagnostics"]
+                    self.assertEqual((code, error["rule"]), (2, "convert.option"), answer)
+                    self.assertIn(option[0], error["message"])
+                    self.assertEqual(error["fix"], f"leave {option[0]} out")
+        code, answer = self.run_tenon("convert", self.robot, self.asset, "--force", "--physics",
+                                      "physx")
+        self.assertEqual((code, answer["diagnostics"][0]["rule"]), (2, "convert.option"), answer)
+
     def test_what_matches_nothing_is_an_error(self):
         for words, said, fix in (
                 (["--gains", "tip_jiont=1,2"], "joint with one axis that follows no other",
                  "did you mean tip_joint?"),
                 (["--gains", "finger_2_joint=1,2"], "joint with one axis that follows no other",
+                 "finger_1_joint"),
+                # No match of a part of a name, whatever its parentheses.
+                (["--gains", "sl)|zz=1,2"], "joint with one axis that follows no other",
                  "finger_1_joint"),
                 (["--armature", "thumb.*=1"], "joint with one axis",
                  "finger_1_joint, finger_2_joint, tip_joint, slide"),
@@ -135,7 +170,8 @@ class Rules(unittest.TestCase):
     def test_what_is_no_rule_is_an_error(self):
         for words in (["--gains", "tip=1"], ["--armature", "-1"], ["--armature", "tip=heavy"],
                       ["--friction", "nan"], ["--collision", "box"], ["--collision", "tip=Hull"],
-                      ["--density", "0"], ["--gains", "(=1,2"], ["--armature", "(a)\\1=1"]):
+                      ["--density", "0"], ["--gains", "(=1,2"], ["--armature", "(a)\\1=1"],
+                      ["--gains", "sl)|(ide=1,2"]):
             code, answer = self.run_tenon("convert", self.robot, self.asset, *words)
             with self.subTest(words[1]):
                 self.assertEqual(code, 2, answer)

@@ -97,6 +97,24 @@ class Expanding(Xacro):
         self.assertAlmostEqual(joint["lower"], -1.5707963, delta=1e-6)
         self.assertIn("xacro.expanded", [found["rule"] for found in answer["diagnostics"]])
 
+    def test_lines_of_what_xacro_prints_are_not_given_as_places_of_the_file(self):
+        fault = '<link name="extra"><inertial><mass value="-1"/></inertial></link>' \
+            '<joint name="e" type="fixed"><parent link="r_base"/><child link="extra"/></joint>'
+        self.arm.write_text(ARM.replace("</robot>", fault + "</robot>"), encoding="utf-8")
+        _, answer = self.convert(self.arm)
+        own = [d for d in answer["diagnostics"] if d["file"] == str(self.arm)
+               and d["rule"] != "xacro.expanded"]
+        self.assertTrue(own, answer)
+        self.assertEqual({d["line"] for d in own}, {None}, own)
+        named = [d["message"] for d in own if "of the output of xacro)" in d["message"]]
+        self.assertTrue(named, own)
+        # An error is no different.
+        self.arm.write_text(ARM.replace("</robot>", '<link name="lost"/></robot>'),
+                            encoding="utf-8")
+        code, answer = self.convert(self.arm)
+        self.assertEqual(code, 2, answer)
+        self.assertIsNone(answer["diagnostics"][-1]["line"], answer)
+
     def test_arguments(self):
         code, answer = self.convert(self.arm, "--arg", "prefix=left_", "--arg", "gripper=true")
         self.assertEqual(code, 0, answer)

@@ -161,6 +161,21 @@ TEST(PhysxSolver, OfArticulationsAreTheirOwnAndLinksSayNothingOfThem) {
       mentions(simulation->not_mapped(), "/a", "physxRigidBody:solverPositionIterationCount"));
 }
 
+TEST(PhysxSolver, ArticulationsHaveTheIterationsOfTheirSchemaWhereTheAssetIsSilent) {
+  TestScene scene;
+  const Index a = scene.add_body("a", {{0, 0, 0}});
+  scene.add_joint("hinge", JointKind::Revolute, {}, a).articulation = 0;
+  scene.articulations.push_back({named("a"), scene.joints[0].path, true, {a}, {0}, {}, true, {}});
+  const auto simulation = made_of(scene);
+  px::PxArticulationReducedCoordinate* tree = nullptr;
+  ASSERT_EQ(scene_of(*simulation).getArticulations(&tree, 1), 1u);
+  px::PxU32 positions = 0;
+  px::PxU32 velocities = 0;
+  tree->getSolverIterationCounts(positions, velocities);
+  EXPECT_EQ(positions, 32u);
+  EXPECT_EQ(velocities, 1u);
+}
+
 TEST(PhysxSolver, ForcesOfDrivesAtTheBeginningOfAStepAreRefused) {
   const TestScene scene = one_box();
   Diagnostics diagnostics;

@@ -51,7 +51,7 @@ std::size_t new_tree(Build& build, Index body, bool fixed) {
   const scene::Articulation* source = articulation_of(build, body);
   const Settings settings = source == nullptr ? Settings() : source->parts.physx;
   const Index scene = build.scene.bodies[body].scene;
-  const Iterations iterations = iterations_of(build, scene, settings);
+  const Iterations iterations = iterations_of(build, scene, settings, kTreeIterations);
   made->setSolverIterationCounts(iterations.positions, iterations.velocities);
   made->setSleepThreshold(sleep_threshold_of(build, scene, settings));
   made->setStabilizationThreshold(

@@ -27,8 +27,14 @@ struct Iterations {
   px::PxU32 positions = 0;
   px::PxU32 velocities = 0;
 };
-/// Of a body or an articulation, within the bounds of its scene.
-Iterations iterations_of(const Build& build, scene::Index scene, const Settings& settings);
+/// Iterations of positions where the asset is silent: the fallbacks of PhysxRigidBodyAPI and
+/// PhysxArticulationAPI.
+inline constexpr double kBodyIterations = 16;
+inline constexpr double kTreeIterations = 32;
+/// Of a body or an articulation, within the bounds of its scene; `usual` where the settings do not
+/// say how many of positions.
+Iterations iterations_of(const Build& build, scene::Index scene, const Settings& settings,
+                         double usual);
 /// Kinetic energy by mass below which something may fall asleep [m^2/s^2]; 0: it never does.
 float sleep_threshold_of(const Build& build, scene::Index scene, const Settings& settings);
 
