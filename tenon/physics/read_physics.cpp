@@ -13,6 +13,7 @@
 
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/bodies/bodies_with_mass.h"
+#include "tenon/physics/contents/read_outline.h"
 #include "tenon/physics/joints/joint_checks.h"
 #include "tenon/physics/read_state.h"
 #include "tenon/scene/canonical_scene.h"
@@ -74,6 +75,28 @@ PhysicsScene read_walked(ReadState& state) {
   return std::move(state.scene);
 }
 
+PhysicsScene read_stage(const stage::Stage& stage, const ReadOptions& options,
+                        StaticMeshes static_meshes, Diagnostics& diagnostics,
+                        Provenance* provenance) {
+  Diagnostics found;
+  ReadState state = begin(stage, options, found);
+  state.provenance = provenance;
+  state.static_meshes = static_meshes;
+  const MeshTools own = options.mesh_tools ? MeshTools() : approximate::mesh_tools({});
+  state.mesh_tools = options.mesh_tools ? &*options.mesh_tools : &own;
+  state.mesh_cache = options.mesh_cache;
+  state.integrals = options.integrals ? &options.integrals : nullptr;
+  state.walk = walk_stage(stage, state.values, options.readings);
+  PhysicsScene scene = read_walked(state);
+  make_canonical(scene);
+  if (state.walk.instances.empty()) {
+    diagnostics.append(found);
+  } else {
+    append_once(found, diagnostics);
+  }
+  return scene;
+}
+
 }  // namespace
 
 void read_objects(ReadState& state) {
@@ -105,22 +128,12 @@ void read_bodies_with_mass(ReadState& state) {
 
 PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
                           Diagnostics& diagnostics, Provenance* provenance) {
-  Diagnostics found;
-  ReadState state = begin(stage, options, found);
-  state.provenance = provenance;
-  const MeshTools own = options.mesh_tools ? MeshTools() : approximate::mesh_tools({});
-  state.mesh_tools = options.mesh_tools ? &*options.mesh_tools : &own;
-  state.mesh_cache = options.mesh_cache;
-  state.integrals = options.integrals ? &options.integrals : nullptr;
-  state.walk = walk_stage(stage, state.values, options.readings);
-  PhysicsScene scene = read_walked(state);
-  make_canonical(scene);
-  if (state.walk.instances.empty()) {
-    diagnostics.append(found);
-  } else {
-    append_once(found, diagnostics);
-  }
-  return scene;
+  return read_stage(stage, options, StaticMeshes::Read, diagnostics, provenance);
+}
+
+PhysicsScene read_outline(const stage::Stage& stage, const ReadOptions& options,
+                          Diagnostics& diagnostics) {
+  return read_stage(stage, options, StaticMeshes::Skipped, diagnostics, nullptr);
 }
 
 }  // namespace tenon::physics

@@ -34,6 +34,9 @@ struct DriveInstance {
   Token instance;
 };
 
+/// Whether the arrays of meshes that collide and stand still are read (contents/read_outline.h).
+enum class StaticMeshes : std::uint8_t { Read, Skipped };
+
 /// What the passes of read_physics share: the stage, what was found on it, and the description that
 /// grows pass by pass. Lives for one reading.
 struct ReadState {
@@ -47,6 +50,7 @@ struct ReadState {
   const Function<std::optional<SolidIntegrals>(const stage::Prim&)>* integrals = nullptr;
   Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
+  StaticMeshes static_meshes = StaticMeshes::Read;
   SharedMeshes shared_meshes{};
   mutable stage::TargetMemo target_memo{};
   Walk walk{};

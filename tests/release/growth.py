@@ -33,6 +33,18 @@ def missing_targets(count):
     return HEAD + 'def Xform "W"\n{\n    rel r = [' + targets + "]\n}\n"
 
 
+def wrong_pairs(count):
+    """Filtered pairs with what is missing, with what has no collider, and of a prim without one."""
+    missing = ", ".join(f"</W/gone{i}>" for i in range(count))
+    empty = ", ".join(f"</W/e{i}>" for i in range(count))
+    rows = [f'    def Sphere "{name}" (prepend apiSchemas = [{schemas}"PhysicsFilteredPairsAPI"])\n'
+            f"    {{\n        rel physics:filteredPairs = [{targets}]\n    }}"
+            for name, schemas, targets in (("b", BODY + ", ", f"{missing}, {empty}"),
+                                           ("c", "", f"{missing}, {empty}"))]
+    rows += [f'    def Xform "e{i}"\n    {{\n    }}' for i in range(count)]
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(rows) + "\n}\n"
+
+
 def ops_above_bodies(count):
     """As many transform operations on a prim as bodies below it."""
     ops = [f"xformOp:translate:a{i}" for i in range(count)]
@@ -167,6 +179,27 @@ def assignments(count):
     return ("/W.v=1", *(f"/W.v{i}=1" for i in range(count)))
 
 
+def chain(count):
+    """Bodies in a row, each connected with the next one."""
+    joints = [f'    def PhysicsRevoluteJoint "j{i}"\n    {{\n'
+              f"        rel physics:body0 = </W/b{i}>\n"
+              f"        rel physics:body1 = </W/b{i + 1}>\n        token physics:axis = \"Z\"\n"
+              "        point3f physics:localPos0 = (3, 0, 0)\n    }\n" for i in range(count)]
+    bodies = [f'    def Sphere "b{i}" (prepend apiSchemas = [{BODY}, "PhysicsMassAPI"])\n    {{\n'
+              f"        double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+              '        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }\n'
+              for i in range(count + 3)]
+    return HEAD + 'def Xform "W"\n{\n' + "".join(bodies + joints) + "}\n"
+
+
+def pairs_beside_neighbours(count):
+    return [word for i in range(count + 1) for word in ("--filter", f"/W/b{i},/W/b{i + 2}")]
+
+
+def masses(count):
+    return [f"/W/b{i}.physics:mass=2" for i in range(count + 1)]
+
+
 class Kind:
     """`behind` are the words behind the scene's name, or a function that makes them of a size."""
 
@@ -184,6 +217,7 @@ class Kind:
 # kCollisionGroupWork at twice the size.
 KINDS = (
     Kind("missing targets", missing_targets, 600, "check"),
+    Kind("wrong filtered pairs", wrong_pairs, 400, "check"),
     Kind("operations above bodies", ops_above_bodies, 200, "check"),
     Kind("pairs with the root", pairs_with_the_root, 1100, "physics"),
     Kind("pairs with the root, checked", pairs_with_the_root, 300, "check"),
@@ -200,6 +234,8 @@ KINDS = (
     Kind("what is composed, flattened", composed, 150, "cat", ("--flatten", "-o", "out.usda")),
     Kind("findings", bodies_with_faults, 100, "check"),
     Kind("assignments of one edit", plain, 100, "set", assignments),
+    Kind("masses of a chain", chain, 100, "set", masses),
+    Kind("filtered pairs of a chain", chain, 100, "pairs", pairs_beside_neighbours),
 )
 COLLECTED = re.compile(r"I +refs: +([\d,]+)")
 

@@ -370,6 +370,28 @@ std::optional<ShapeReading> read_ellipsoid(const ReadState& state, const ShapeSo
   return reading;
 }
 
+/// The arrays of a mesh are there, and not to be read.
+bool is_skipped(const ReadState& state, const ShapeSource& source) {
+  if (state.static_meshes == StaticMeshes::Read || source.on_body) {
+    return false;
+  }
+  const stage::Prim& prim = source.found.prim;
+  const Token arrays[] = {state.tokens.points, state.tokens.face_counts, state.tokens.face_indices};
+  return std::all_of(std::begin(arrays), std::end(arrays),
+                     [&](Token name) { return prim.attribute(name).has_authored_value(); });
+}
+
+/// What can be said of a mesh without its arrays.
+ShapeReading read_mesh_settings(ReadState& state, const ShapeSource& source) {
+  note_subdivision(state, source);
+  ShapeReading reading;
+  reading.approximation = approximation_of(state, source);
+  settle(state, source, *reading.approximation);
+  reading.shape.kind = ShapeKind::Mesh;
+  reading.shape.mesh = add_mesh(state, TriangleMesh());
+  return reading;
+}
+
 std::optional<ShapeReading> read_faces(ReadState& state, const ShapeSource& source) {
   const stage::Prim& prim = source.found.prim;
   const MeshSource made_from = read_source(state, source, prim, source.found.world);
@@ -430,8 +452,10 @@ std::optional<ShapeReading> read_faces(ReadState& state, const ShapeSource& sour
 }  // namespace
 
 std::optional<ShapeReading> read_mesh_shape(ReadState& state, const ShapeSource& source) {
-  auto ellipsoid = read_ellipsoid(state, source);
-  return ellipsoid ? ellipsoid : read_faces(state, source);
+  if (auto ellipsoid = read_ellipsoid(state, source)) {
+    return ellipsoid;
+  }
+  return is_skipped(state, source) ? read_mesh_settings(state, source) : read_faces(state, source);
 }
 
 namespace {
@@ -468,6 +492,9 @@ std::vector<Index> triangles_of(const layer::Array<std::int32_t>& faces,
 }  // namespace
 
 void read_face_materials(ReadState& state, Index index) {
+  if (state.static_meshes == StaticMeshes::Skipped && !state.scene.colliders[index].body) {
+    return;
+  }
   const stage::Prim& prim = state.prim_of_collider(index).prim;
   std::vector<Index> first;
   for (const stage::Prim& child : prim.children()) {
