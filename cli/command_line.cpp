@@ -4,9 +4,10 @@
 // CLI11 parses. A table beside it keeps what CLI11 does not know of each option, and help, manual
 // pages and completions are made of that table. A verb also takes the options of the commands above
 // it, so every search for an option walks up the parents. An exception of CLI11 is translated by
-// its exit code and told from the innermost command that was named. One fault is found after
-// parsing: an option that took the name of another option for its value. That is still in time,
-// because parsing only notes which verb is to run.
+// its exit code and told from the innermost command that was named. Two faults are found after
+// parsing: an option that took the name of another option for its value, and one that has no effect
+// with the others that are given. That is still in time, because parsing only notes which verb is
+// to run.
 #include "cli/command_line.h"
 
 #include <algorithm>
@@ -215,6 +216,70 @@ std::optional<Error> swallowed_option(const CLI::App& app) {
   return std::nullopt;
 }
 
+/// An option as rules name it: "--test", or "--test=stress" for one of its values.
+struct NamedOption {
+  explicit NamedOption(const std::string& text)
+      : name(text.substr(0, text.find('='))),
+        value(text.substr(std::min(name.size() + 1, text.size()))) {}
+
+  /// As it is typed.
+  std::string typed() const { return value.empty() ? name : name + " " + value; }
+  bool is_given(const CLI::App& app) const {
+    const CLI::Option* const option = find_option(app, name);
+    if (option == nullptr || option->count() == 0) {
+      return false;
+    }
+    const std::vector<std::string>& given = option->results();
+    return value.empty() || std::find(given.begin(), given.end(), value) != given.end();
+  }
+
+  std::string name;
+  std::string value;
+};
+
+/// "--output FILE or --bake LAYER"
+template <class Shown>
+std::string either(const std::vector<std::string>& options, const Shown& shown) {
+  std::string text;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == options.size() ? " or " : ", ";
+    text += shown(NamedOption(options[i]));
+  }
+  return text;
+}
+
+/// An option that has no effect beside others, or without them. `placeholder` is the word for an
+/// option's value.
+std::optional<Error> option_without_effect(
+    const CLI::App& app, const OptionInfo& info,
+    const std::function<std::string(const CLI::Option*)>& placeholder) {
+  const std::string& name = info.longest_name();
+  for (const std::string& other : info.not_with) {
+    const NamedOption option(other);
+    if (option.is_given(app)) {
+      return usage_error(app, name + " has no effect with " + option.typed(), "usage.conflict",
+                         "leave one of the two out");
+    }
+  }
+  const std::vector<std::string>& others = info.only_with;
+  if (others.empty() || std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+        return NamedOption(other).is_given(app);
+      })) {
+    return std::nullopt;
+  }
+  const auto with_value = [&](const NamedOption& option) {
+    const CLI::Option* const known = find_option(app, option.name);
+    const std::string word =
+        option.value.empty() && known != nullptr ? placeholder(known) : option.value;
+    return word.empty() ? option.name : option.name + " " + word;
+  };
+  return usage_error(app,
+                     name + " has no effect without " +
+                         either(others, [](const NamedOption& option) { return option.typed(); }),
+                     "usage.conflict",
+                     "add " + either(others, with_value) + ", or leave " + name + " out");
+}
+
 Error translated(const CLI::App& root, const CLI::ParseError& error) {
   const CLI::App& app = innermost(root);
   const std::string text = error.what();
@@ -278,6 +343,16 @@ Option Option::file_only() const {
   hold_value_to(option_, [name = info_->longest_name()](const std::string& value) {
     return value == "-" ? name + " has to be a file: standard input is not read here" : "";
   });
+  return *this;
+}
+
+Option Option::only_with(const std::vector<std::string>& options) const {
+  info_->only_with = options;
+  return *this;
+}
+
+Option Option::not_with(const std::vector<std::string>& options) const {
+  info_->not_with = options;
   return *this;
 }
 
@@ -388,7 +463,14 @@ Parsed CommandLine::parse(int argc, char** argv) const {
   Parsed parsed;
   try {
     app_->parse(argc, argv);
-    parsed.error = swallowed_option(innermost(*app_));
+    const CLI::App& named = innermost(*app_);
+    parsed.error = swallowed_option(named);
+    const auto placeholder = [this](const CLI::Option* option) { return table_->of(option).value; };
+    for (const auto& [option, info] : table_->options) {
+      if (!parsed.error && option->count() > 0) {
+        parsed.error = option_without_effect(named, info, placeholder);
+      }
+    }
   } catch (const CLI::CallForHelp&) {
     parsed.help = true;
   } catch (const CLI::ParseError& error) {

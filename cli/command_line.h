@@ -34,6 +34,11 @@ class Option {
   Option one_of(const std::vector<std::string>& choices) const;
   /// A file: "-" for standard input is an error of usage.
   Option file_only() const;
+  /// Has no effect without one of these options, which is an error of usage. An option is named
+  /// with its dashes, and with "=VALUE" where one of its values alone is meant.
+  Option only_with(const std::vector<std::string>& options) const;
+  /// Has no effect beside any of these options, which is an error of usage.
+  Option not_with(const std::vector<std::string>& options) const;
   Option description(const std::string& text) const;
   /// The word for its value in help: "FILE".
   Option value_name(const std::string& name) const;

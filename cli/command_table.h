@@ -33,6 +33,9 @@ struct OptionInfo {
   bool required = false;
   bool list = false;            ///< may be given many times
   bool optional_value = false;  ///< the value is optional
+  /// Has no effect without one of these: "--vary", or "--test=stress" for a value.
+  std::vector<std::string> only_with;
+  std::vector<std::string> not_with;  ///< has no effect beside any of these, written the same way
 
   const std::string& longest_name() const { return names.back(); }
   /// "-o, --output FILE".

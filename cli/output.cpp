@@ -58,6 +58,7 @@ constexpr KindRow kKinds[] = {
     {OutputKind::State, "a saved state", {".state"}, true, true},
     {OutputKind::Description, "a robot's description", {".xml", ".urdf"}, false, false},
     {OutputKind::Pairs, "a list of pairs", {".srdf"}, false, false},
+    {OutputKind::Poses, "a file of poses", {".json"}, false, false},
     {OutputKind::Dump, "a dump", {".json"}, true, true},
     {OutputKind::Sarif, "a SARIF log", {".sarif", ".json"}, true, true},
     {OutputKind::Baseline, "a baseline", {".json"}, true, true},

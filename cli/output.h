@@ -34,6 +34,7 @@ enum class OutputKind : std::uint8_t {
   State,        ///< of a simulation, to go on from
   Description,  ///< of a robot, for other programs
   Pairs,        ///< of links that do not collide, for other programs
+  Poses,        ///< of a robot by name, for other programs
   Dump,         ///< of a stage
   Sarif,
   Baseline,

@@ -44,6 +44,7 @@ constexpr std::array kVerbs{
     Verb{"new", add_new},
     Verb{"pairs", add_pairs},
     Verb{"physics", add_physics},
+    Verb{"pose", add_pose_verb},
     Verb{"record", add_record},
     Verb{"remove", add_remove},
     Verb{"rename", add_rename},

@@ -19,7 +19,8 @@ void add_pose(const Command& verb, std::vector<std::string>& pose) {
   verb.add_option(
           "--pose", pose,
           "JOINT=VALUE,...: joints away from the start; JOINT is a path, a name or a regular "
-          "expression, VALUE in degrees or units of the stage, or with deg, rad, m, cm, mm")
+          "expression, VALUE in degrees or units of the stage, or with deg, rad, m, cm, mm; or "
+          "the name of a pose that the asset keeps (tenon pose)")
       .repeatable();
 }
 

@@ -16,7 +16,7 @@ namespace tenon::cli {
 
 /// The option --reading NAME=VALUE, which may be repeated.
 void add_readings(const Command& verb, std::vector<std::string>& assignments);
-/// The option --pose JOINT=VALUE,..., which may be repeated.
+/// The option --pose JOINT=VALUE,... or NAME, which may be repeated.
 void add_pose(const Command& verb, std::vector<std::string>& pose);
 /// Errors: Invalid, with the names and values that there are.
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments);

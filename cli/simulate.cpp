@@ -88,8 +88,8 @@ void SimulateArguments::add_to(const Command& verb) {
       .value_name("NAME");
   verb.add_option(
           "--iterations", iterations, {1, 1e6, false, true, ""},
-          "How often the solver tries, at most; without it the asset's, else 100 (MuJoCo), 16 "
-          "(PhysX), 20 for trees of joints and 10 for free bodies (Jolt)")
+          "How often the solver tries, at most; without it the asset's, else 100 (MuJoCo), for "
+          "trees of joints and free bodies 32 and 16 (PhysX), 20 and 10 (Jolt)")
       .value_name("COUNT");
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},
                   "Frames of logs and baked layers");

@@ -16,7 +16,8 @@ void UpdateArguments::add_to(const Command& verb) {
                   "With --update, where an edit and the source changed the same thing: edits (keep "
                   "the edit and report it no more), source (take the source's value) or fail "
                   "(write nothing); without it edits stay and every update reports them")
-      .one_of({"edits", "source", "fail"});
+      .one_of({"edits", "source", "fail"})
+      .only_with({"--update"});
 }
 
 Result<std::optional<UpdateOutcome>> update(const structure::Package& made,

@@ -66,7 +66,7 @@ void AssetArguments::add_options_to(const Command& verb) {
   verb.add_option("--physics", physics, kPhysicsHelp);
   verb.add_option("--mask", mask, "Only these prims, with what is above and below them")
       .split_at_commas();
-  verb.add_flag("--unloaded", unloaded, "Leave payloads out");
+  verb.add_flag("--unloaded", unloaded, "Leave payloads out").not_with({"--load"});
   verb.add_option("--load", load,
                   "Payloads to include: all, none, or only those of these prims with what is above "
                   "and below them")
@@ -79,7 +79,23 @@ void AssetArguments::add_options_to(const Command& verb) {
 }
 
 bool AssetArguments::selects() const {
-  return !physics.empty() || !mask.empty() || !load.empty() || !muted.empty();
+  return !physics.empty() || !mask.empty() || unloaded || !load.empty() || !muted.empty();
+}
+
+Result<void> AssetArguments::check_whole(const char* why) const {
+  const std::pair<const char*, bool> given[] = {{"--physics", !physics.empty()},
+                                                {"--mask", !mask.empty()},
+                                                {"--unloaded", unloaded},
+                                                {"--load", !load.empty()},
+                                                {"--mute-layer", !muted.empty()}};
+  for (const auto& [option, is_given] : given) {
+    if (is_given) {
+      return Error(ErrorCode::Invalid, std::string(option) + " has no effect: " + why)
+          .with_rule("usage.conflict")
+          .with_fix("leave " + std::string(option) + " out");
+    }
+  }
+  return {};
 }
 
 OpenOptions AssetArguments::open_options() const {

@@ -69,6 +69,9 @@ struct AssetArguments {
   OpenOptions open_options() const;
   /// Something is chosen that only a composed scene has.
   bool selects() const;
+  /// Refuses options that select parts of a composed scene, where a verb is about whole files:
+  /// Invalid (usage.conflict), which names the option. `why` ends the message.
+  Result<void> check_whole(const char* why) const;
 };
 
 /// Lets `verb` run `run` when it is chosen.
@@ -98,6 +101,7 @@ AddVerb add_manual;
 AddVerb add_new;
 AddVerb add_pairs;
 AddVerb add_physics;
+AddVerb add_pose_verb;
 AddVerb add_record;
 AddVerb add_remove;
 AddVerb add_rename;

@@ -30,7 +30,7 @@ LIBRARIES = {
                      "signal.h", "pthread.h", "malloc.h", "termios.h", "dirent.h", "execinfo.h"],
                     SYSTEM),
     "Eigen/*": ["tenon/math/*.cpp", "tenon/dynamics/*.cpp", "tenon/dynamics/constraints.h",
-                "tenon/dynamics/least_energy.h"],
+                "tenon/dynamics/least_energy.h", "tenon/dynamics/loop_closure.h"],
     "boost/*": ["tenon/serve/hub.h", "tenon/serve/*.cpp"],
     "fast_float/*": ["tenon/base/text/number_from_text.h"],
     "meshoptimizer.h": ["tenon/approximate/*.cpp"],

@@ -104,6 +104,10 @@ def judgements_of_pages_and_python():
     yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
     yield Judgement("python_types", ["bash", "-c", "python/tests/install.sh && "
                                      "python/tests/pyright.sh"], "release")
+    # What the example of docs/tasks.md learns; without the wheel in its environment.
+    yield Judgement("learned", ["bash", "-c", "python/tests/install.sh && "
+                                "python/tests/learned.sh {engine}"], "release", (),
+                    "python/examples/learn/requirements-learn.txt")
     yield Judgement("clean_root", ["bash", "-c", "python/tests/install.sh && "
                                    "python/tests/clean_root.sh"], "release")
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
@@ -127,6 +131,10 @@ def corpora():
                                  "build/release/bin/tenon", "{engine}"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/simready/requirements-simready.txt")
+    yield Judgement("simready_made", ["{python}", "-B", "tests/simready/made_robots.py", ".",
+                                      "build/release/bin/tenon", "{engine}"],
+                    "release", ["tenon_cli", "tenon_worker", "tenon_page"],
+                    "tests/simready/requirements-simready.txt")
     yield Judgement("robot_corpora", ["{python}", "-B", "tests/convert/robot_corpora.py", ".",
                                       "build/release/bin/tenon", "{engine}",
                                       "docs/robot-corpora.md", "--most", "60"],
@@ -136,6 +144,18 @@ def corpora():
                                          "build/release/bin/tenon"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/convert/requirements-sdf.txt")
+
+
+def composition():
+    """Random scenes beside OpenUSD, and twins beside themselves."""
+    yield Judgement("random_scenes", ["{python}", "-B", "tests/differential/compose_random.py",
+                                      "build/bench/bin/tenon_composition_dump", "--seed", "5001",
+                                      "--scenes", "5000", "--show", "3", "--misses",
+                                      "tests/differential/random_scenes_misses.txt"],
+                    "bench", ["tenon_composition_dump"])
+    yield Judgement("compose_twins", ["{python}", "-B", "tests/differential/compose_twins.py",
+                                      "build/bench/bin/tenon_composition_dump",
+                                      "--scenes", "500"], "bench", ["tenon_composition_dump"])
 
 
 def judgements():
@@ -174,14 +194,7 @@ def judgements():
                               "--no-tests=error"], "bench")
     yield Judgement("structure_sweep", ["{python}", "-B", "tests/structure/sweep.py", ".",
                                         "build/release/bin/tenon", "--all"], "release")
-    yield Judgement("random_scenes", ["{python}", "-B", "tests/differential/compose_random.py",
-                                      "build/bench/bin/tenon_composition_dump", "--seed", "5001",
-                                      "--scenes", "5000", "--show", "3", "--misses",
-                                      "tests/differential/random_scenes_misses.txt"],
-                    "bench", ["tenon_composition_dump"])
-    yield Judgement("compose_twins", ["{python}", "-B", "tests/differential/compose_twins.py",
-                                      "build/bench/bin/tenon_composition_dump",
-                                      "--scenes", "500"], "bench", ["tenon_composition_dump"])
+    yield from composition()
     yield from corpora()
     yield Judgement("recordings", ["{python}", "-B", "tests/view/recordings.py", ".",
                                    "build/release/bin/tenon"], "release")
@@ -191,6 +204,12 @@ def judgements():
                                              "docs/beside-other-engines.md"],
                         "release", ["tenon_cli", "tenon_worker"],
                         f"tests/engines_beside/requirements-{engine}.txt")
+    # tenon_usd.newton beside Newton's own importer, in the same environment.
+    yield Judgement("newton_importer", ["bash", "-c", "python/tests/install.sh && {python} -B "
+                                        "tests/newton/beside_newton_importer.py . "
+                                        "build/release/bin/tenon {engine} docs/newton.md"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/engines_beside/requirements-newton.txt")
     yield Judgement("sweeps", ["{engine}", "-B", "tests/sweep/at_scale.py"], "release", (),
                     "tests/sweep/requirements-sweep.txt")
     # Of a build with every engine (make build ENGINES=all, make test).

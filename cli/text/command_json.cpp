@@ -23,7 +23,9 @@ Json option_json(const OptionInfo& option) {
           {"positional", option.positional},
           {"required", option.required},
           {"list", option.list},
-          {"optionalValue", option.optional_value}};
+          {"optionalValue", option.optional_value},
+          {"onlyWith", option.only_with},
+          {"notWith", option.not_with}};
 }
 
 Json options_json(const std::vector<OptionInfo>& options) {

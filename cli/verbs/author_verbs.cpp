@@ -74,6 +74,25 @@ int run_author(const Globals& globals, const std::string& verb, const AuthorArgu
                   : report.fail(authored.error());
 }
 
+/// A prim that goes as a whole takes no options that say which part of a kind goes.
+Result<void> check_whole_prim(const AuthorArguments& options) {
+  const std::vector<std::string>& what = options.request.what;
+  if (std::any_of(what.begin(), what.end(),
+                  [](const std::string& one) { return one.find('=') != std::string::npos; })) {
+    return {};
+  }
+  std::map<std::string, std::string> given = options.options;
+  given.emplace("engine", options.engine);
+  for (const auto& [name, value] : given) {
+    if (!value.empty()) {
+      return Error(ErrorCode::Invalid, "--" + name + " has no effect: prims go as a whole")
+          .with_rule("usage.conflict")
+          .with_fix("name a kind, PATH=KIND, or leave --" + name + " out");
+    }
+  }
+  return {};
+}
+
 /// "  revolute        a hinge: --body0 --body1 ..." for each kind.
 std::string kinds_text() {
   std::string text =
@@ -238,10 +257,12 @@ void add_remove(const Command& parent, const Globals& globals, Chosen& chosen) {
       "  tenon remove s.usda /World/box=body,mass\n"
       "  tenon remove s.usda /World/hinge=limit --dof rotX");
   choose(verb, chosen, [&globals, options] {
-    return run_author(globals, "remove", *options, [&](Diagnostics& diagnostics) {
-      return remove_from_asset(options->asset, request_of(*options), author_options(*options),
-                               diagnostics);
-    });
+    return run_author(globals, "remove", *options,
+                      [&](Diagnostics& diagnostics) -> Result<AuthoredAsset> {
+                        TENON_CHECK(check_whole_prim(*options));
+                        return remove_from_asset(options->asset, request_of(*options),
+                                                 author_options(*options), diagnostics);
+                      });
   });
 }
 

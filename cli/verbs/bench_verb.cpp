@@ -149,7 +149,8 @@ void add_bench(const Command& parent, const Globals& globals, Chosen& chosen) {
       .repeatable()
       .value_name("WHAT");
   verb.add_option("--seed", options->seed, {0, 1e15, false, true, ""}, "What --vary draws from")
-      .value_name("NUMBER");
+      .value_name("NUMBER")
+      .only_with({"--vary"});
   add_readings(verb, options->readings);
   verb.add_option("--set", options->asset.overrides,
                   "PATH.attr=value, for this run only; may be repeated")

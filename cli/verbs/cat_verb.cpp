@@ -106,9 +106,12 @@ void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
       parent.add_subcommand("cat", "Read any layer, write it as text, binary or package");
   auto options = std::make_shared<CatArguments>();
   options->asset.add_with_standard_input_to(verb);
-  verb.add_option("-o,--output", options->output, "Where to write; - is standard output");
-  verb.add_flag("--in-place", options->in_place, "The output may be a file that is read");
-  verb.add_flag("-f,--flatten", options->flatten, "Compose first and write one layer");
+  verb.add_option("-o,--output", options->output, "Where to write; - is standard output")
+      .value_name("FILE");
+  verb.add_flag("--in-place", options->in_place, "The output may be a file that is read")
+      .only_with({"--output"});
+  verb.add_flag("-f,--flatten", options->flatten, "Compose first and write one layer")
+      .not_with({"--flatten-layer-stack"});
   verb.add_flag("--flattenLayerStack,--flatten-layer-stack", options->flatten_layer_stack,
                 "Merge the sublayers, keep references and the like");
   verb.add_option("--usdFormat,--format", options->format, "usda, usdc or usdz")
@@ -116,7 +119,7 @@ void add_cat(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.footer(
       "Examples:\n  tenon cat geometry.usdc\n  tenon cat hand.usda --flatten -o flat.usdc\n"
       "A package (-o hand.usdz) takes in all layers and textures that it needs.\n"
-      "Selecting with --mask, --load, --mute-layer or --physics composes, too.");
+      "Selecting with --mask, --load, --unloaded, --mute-layer or --physics composes, too.");
   choose(verb, chosen, [&globals, options] { return run_cat(globals, *options); });
 }
 

@@ -191,7 +191,8 @@ void add_compare(const Command& parent, const Globals& globals, Chosen& chosen) 
       .value_name("BOUND");
   verb.add_option("--trials", options->trials, {1, 1e5, false, true, ""},
                   "How many causes are tried, at most")
-      .value_name("COUNT");
+      .value_name("COUNT")
+      .not_with({"--no-reasons"});
   verb.add_flag("--no-reasons", options->no_reasons, "Do not look for reasons");
   verb.add_option("-o,--output", options->output,
                   "Write a report: .html (tables and plots, one file), .json or .csv")

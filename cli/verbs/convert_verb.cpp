@@ -16,6 +16,7 @@
 #include "cli/settings.h"
 #include "cli/update.h"
 #include "cli/verb.h"
+#include "cli/verbs/simready_arguments.h"
 #include "tenon/asset/convert_file.h"
 #include "tenon/asset/converting/converted_json.h"
 #include "tenon/asset/converting/describe_asset.h"
@@ -58,6 +59,7 @@ struct ConvertArguments {
   bool scene = false;
   bool flat = false;
   bool force = false;
+  SimReadyArguments simready;
   UpdateArguments update{.made_by = "convert"};
 };
 
@@ -79,7 +81,13 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   result.model = options.model;
   result.robot.tutorial = options.names == "tutorial";
   result.robot.flat |= result.robot.tutorial;
-  const bool both = options.schema.empty() ? result.robot.tutorial : options.schema == "both";
+  result.robot.robot_type = options.simready.robot_type;
+  result.robot.keep_source = !options.simready.wanted();  // its meshes are no files of a scene
+  // What stands is held. What walks is told by --float-base: a root may be the world.
+  result.robot.fix_base |= options.simready.wanted() && !options.float_base &&
+                           structure::is_held(options.simready.robot_type);
+  const bool both = options.schema.empty() ? result.robot.tutorial || options.simready.wanted()
+                                           : options.schema == "both";
   result.robot.schema = options.schema == "legacy" ? convert::SchemaGeneration::Legacy
                         : both                     ? convert::SchemaGeneration::Both
                                                    : convert::SchemaGeneration::Current;
@@ -96,8 +104,9 @@ Result<ConvertFileOptions> convert_options(const ConvertArguments& options) {
   return result;
 }
 
-structure::StructureOptions structure_options(const ConvertArguments& options) {
+Result<structure::StructureOptions> structure_options(const ConvertArguments& options) {
   structure::StructureOptions result;
+  TENON_CHECK(options.simready.put_into(result, options.input));
   if (options.names == "tutorial") {
     result.names = structure::Names::Tutorial;
     result.all_engines = true;
@@ -152,6 +161,13 @@ Result<void> check_options(const ConvertArguments& options, bool folder) {
     return Error(ErrorCode::Invalid, "--names is about the files of a folder")
         .with_fix("name a folder as the output, with a / at its end");
   }
+  TENON_CHECK(options.simready.check());
+  if (options.simready.wanted() && (!folder || options.names == "tutorial")) {
+    return Error(ErrorCode::Invalid,
+                 "--profile simready is about the files of a folder, with names of today")
+        .with_fix(folder ? "leave --names tutorial out"
+                         : "name a folder as the output, with a / at its end");
+  }
   if (options.update.update && !folder && ends_in(options.output, {".usdz"})) {
     return Error(ErrorCode::Unsupported, "a package cannot be updated")
         .with_fix("convert into a folder, or give --force to make the package anew");
@@ -174,8 +190,10 @@ Result<Conversion> convert_and_write(const ConvertArguments& options, Diagnostic
   done.counts = counts_of(converted);
   done.opens = options.output;
   if (folder) {
-    TENON_TRY(const structure::StructuredAsset asset,
-              structured_robot(converted, diagnostics, structure_options(options)));
+    TENON_TRY(const structure::StructureOptions form, structure_options(options));
+    TENON_TRY(structure::StructuredAsset asset, structured_robot(converted, diagnostics, form));
+    TENON_CHECK(
+        options.simready.complete(asset.package, wanted.open.files, options.output, diagnostics));
     done.opens = (fs::path(options.output) / asset.package.interface).string();
     if (updates) {
       TENON_TRY(done.updated,
@@ -222,6 +240,15 @@ void note_free_root(const Report& report, const ConvertArguments& options) {
   }
 }
 
+/// Options that have nothing to act on in this robot are infos, and told.
+void note_without_effect(const Report& report) {
+  for (const Diagnostic& finding : report.diagnostics) {
+    if (finding.rule == "convert.without-effect" && !report.verbose()) {
+      report.note(finding.message);
+    }
+  }
+}
+
 /// Settings that a description has no place for are infos; how many there are is told.
 void note_unsupported(const Report& report) {
   const auto count = static_cast<std::size_t>(
@@ -234,8 +261,52 @@ void note_unsupported(const Report& report) {
   }
 }
 
+Error wrong_direction(const std::string& option, const char* about) {
+  return Error(ErrorCode::Invalid, option + " has no effect: " + about)
+      .with_rule("convert.option")
+      .with_fix("leave " + option + " out");
+}
+
+/// Refuses what only a description that becomes an asset can be given.
+Result<void> check_export_options(const ConvertArguments& options) {
+  const RuleTexts& rules = options.rules;
+  const std::pair<const char*, bool> given[] = {
+      {"--package", !options.packages.empty()},
+      {"--arg", !options.arguments.empty()},
+      {"--name", !options.name.empty()},
+      {"--model", !options.model.empty()},
+      {"--names", !options.names.empty()},
+      {"--fix-base", options.fix_base},
+      {"--float-base", options.float_base},
+      {"--self-collision", !options.self_collision.empty()},
+      {"--start", !options.start.empty()},
+      {"--merge-fixed", options.merge_fixed},
+      {"--scene", options.scene},
+      {"--flat", options.flat},
+      {"--gains", !rules.gains.empty()},
+      {"--armature", !rules.armature.empty()},
+      {"--friction", !rules.friction.empty()},
+      {"--schema", !options.schema.empty()},
+      {"--collision", !rules.collision.empty()},
+      {"--density", options.density.has_value()},
+      {"--profile", !options.simready.profile.empty()},
+      {"--robot-type", !options.simready.robot_type.empty()},
+      {"--metadata", !options.simready.metadata.empty()},
+  };
+  for (const auto& [option, is_given] : given) {
+    if (is_given) {
+      return wrong_direction(option,
+                             "it is about assets that are made, and this makes a description");
+    }
+  }
+  return {};
+}
+
 /// The other way: an asset as a robot's description.
 int run_export(Report& report, const ConvertArguments& options, DescriptionFormat format) {
+  if (auto usable = check_export_options(options); !usable) {
+    return report.fail(usable.error());
+  }
   Outputs outputs;
   if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
@@ -274,6 +345,7 @@ int run_conversion(Report& report, const ConvertArguments& options) {
                 converted->counts.joints, counted(converted->counts.meshes, "mesh file"));
   }
   note_free_root(report, options);
+  note_without_effect(report);
   return report.finish(code, std::move(body));
 }
 
@@ -298,6 +370,10 @@ int run_convert(const Globals& globals, ConvertArguments options) {
     }
     return run_export(report, options, DescriptionFormat::Mjcf);
   }
+  if (!options.physics.empty()) {
+    return report.fail(wrong_direction(
+        "--physics", "it selects a variant of an asset, and a description has none"));
+  }
   if (names_folder(options.output)) {
     auto names = names_for(options.names, options.input, report);
     if (!names) {
@@ -319,7 +395,8 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
                   "tutorial, with links side by side and variants for PhysX and MuJoCo; without it "
                   "that of tenon.toml, else current")
       .one_of(structure::known_names());
-  verb.add_flag("--fix-base", options.fix_base, "Hold the root link in the world");
+  verb.add_flag("--fix-base", options.fix_base, "Hold the root link in the world")
+      .not_with({"--float-base"});
   verb.add_flag("--float-base", options.float_base,
                 "The root link is free to move, as that of a walking robot; else it stands still "
                 "where it has no mass, or is called world or base_link and no joint floats");
@@ -341,6 +418,7 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_flag("--flat", options.flat, "Links side by side, not nested");
   verb.add_flag("--force", options.force,
                 "Overwrite an asset or a description that was edited since it was written");
+  options.simready.add_to(verb);
   options.update.add_to(verb);
 }
 

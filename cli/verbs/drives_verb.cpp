@@ -112,15 +112,17 @@ void add_drives(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--sample", options->drives.samples, {0, kMostSamples, false, true, ""},
                   "Postures to draw within the limits of the joints, beside the start")
       .value_name("N");
-  verb.add_option("--seed", options->seed, {0, 1e15, false, true, ""},
-                  "Seed of the drawn postures");
+  verb.add_option("--seed", options->seed, {0, 1e15, false, true, ""}, "Seed of the drawn postures")
+      .only_with({"--sample"})
+      .not_with({"--sample=0"});
   verb.add_option("--specs", options->drives.specs, "Data sheets of motors, a file in TOML")
       .value_name("FILE");
   verb.add_option("--mimic", options->drives.mimic,
                   "Compliance of PhysX's mimics: rigid, or natural frequency and damping ratio")
       .value_name("rigid|FREQUENCY,RATIO");
   verb.add_option("--physics", options->physics, kPhysicsHelp);
-  verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");
+  verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing")
+      .only_with({"--specs", "--mimic"});
   options->files.add_to(verb);
   verb.footer(kDrivesFooter);
   choose(verb, chosen, [&globals, options] { return run_drives(globals, *options); });

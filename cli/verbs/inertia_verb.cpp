@@ -12,7 +12,7 @@
 #include "cli/verb.h"
 #include "tenon/answers/inertia_json.h"
 #include "tenon/asset/physics_options.h"
-#include "tenon/dynamics/posture_text.h"
+#include "tenon/asset/poses/start_pose.h"
 #include "tenon/physics/read_physics.h"
 
 namespace tenon::cli {
@@ -35,7 +35,7 @@ int run_inertia(const Globals& globals, const InertiaArguments& options) {
   const scene::PhysicsScene scene =
       physics::read_physics(*stage, read_options(), report.diagnostics);
   const dynamics::Multibody multibody(scene);
-  auto posture = posture_from_texts(multibody, options.pose);
+  auto posture = posture_from_texts(*stage, multibody, options.pose);
   if (!posture) {
     return report.fail(posture.error());
   }
@@ -72,7 +72,8 @@ void add_inertia(const Command& parent, const Globals& globals, Chosen& chosen) 
   auto options = std::make_shared<InertiaArguments>();
   options->asset.add_several_to(verb, options->assets);
   add_pose(verb, options->pose);
-  verb.add_flag("--matrix", options->matrix, "The mass matrix, too (with --json)");
+  verb.add_flag("--matrix", options->matrix, "The mass matrix, too (with --json)")
+      .only_with({"--json"});
   verb.footer(kInertiaFooter);
   choose(verb, chosen, [&globals, options] {
     return each_asset(globals, "inertia", options->assets,

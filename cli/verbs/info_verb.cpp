@@ -10,7 +10,7 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/base/text/counted.h"
 #include "tenon/open_stage.h"
-#include "tenon/physics/read_physics.h"
+#include "tenon/physics/contents/read_outline.h"
 
 namespace tenon::cli {
 namespace {
@@ -79,7 +79,7 @@ int run_info(const Globals& globals, const AssetArguments& arguments) {
     return report.fail(stage.error());
   }
   const scene::PhysicsScene scene =
-      physics::read_physics(*stage, read_options(), report.diagnostics);
+      physics::read_outline(*stage, read_options(), report.diagnostics);
   Json info = answers::info_json(*stage, scene);
   if (!globals.json) {
     print_info(info);

@@ -182,9 +182,11 @@ void add_search_options(const Command& verb, PairsArguments& options) {
       .value_name("COUNT");
   verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""},
                   "What postures are drawn from")
-      .value_name("NUMBER");
+      .value_name("NUMBER")
+      .not_with({"--sample=0"});
   verb.add_flag("--environment", options.environment, "Static colliders, too");
-  verb.add_flag("--all", options.all, "List pairs that never touch, too (also with -v)");
+  verb.add_flag("--all", options.all, "List pairs that never touch, too (also with -v)")
+      .not_with({"--filter", "--unfilter"});
   verb.add_option("--srdf", options.srdf,
                   "Write the pairs whose collisions MoveIt need not look at, with reasons")
       .value_name("OUT.srdf");
@@ -207,7 +209,8 @@ void add_pairs(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "A,B: remove the filtered pair from the prim that lists it")
       .repeatable()
       .value_name("A,B");
-  verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing");
+  verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing")
+      .only_with({"--filter", "--unfilter"});
   verb.add_option("--physics", options->physics,
                   "The variant of \"Physics\" that is looked at, and in which edits have to count, "
                   "or PRIM=VARIANT");

@@ -79,11 +79,14 @@ void add_physics(const Command& parent, const Globals& globals, Chosen& chosen) 
   verb.option("assets").required(false);
   add_readings(verb, options->readings);
   verb.add_flag("--mass", options->mass,
-                "A table of every body's mass, centre and inertia: authored, resolved, reason");
+                "A table of every body's mass, centre and inertia: authored, resolved, reason")
+      .not_with({"--schema"});
   verb.add_option("--geometry", options->geometry,
                   "With --json, of meshes: hash, or inline, points and triangles")
       .one_of({"hash", "inline"})
-      .value_name("FORM");
+      .value_name("FORM")
+      .only_with({"--json"})
+      .not_with({"--mass", "--schema"});
   verb.add_flag("--schema", options->schema, "Only print the JSON Schema of --json");
   verb.footer(readings_help() +
               "\n\nExample:\n  tenon physics hand.usda --physics physx --json\n"

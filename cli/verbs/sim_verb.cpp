@@ -228,7 +228,11 @@ int run_sim(const Globals& globals, const SimArguments& options) {
                            .with_rule("usage.value")
                            .with_fix("name the file"));
   }
-  auto simulated = simulate(options.simulate, report);
+  SimulateArguments run = options.simulate;
+  if (options.log.empty() && options.bake.empty()) {
+    run.frames_per_second = 0;  // nobody asks for a recording
+  }
+  auto simulated = simulate(run, report);
   if (!simulated) {
     return report.fail(simulated.error());
   }
@@ -252,10 +256,13 @@ void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand("sim", "Simulate the asset on a real engine");
   auto options = std::make_shared<SimArguments>();
   options->simulate.add_to(verb);
+  verb.option("--fps").only_with({"--output", "--bake"});
   verb.add_option("-o,--output", options->log,
-                  "Write a log: .csv, .jsonl or .npz; - is standard output");
+                  "Write a log: .csv, .jsonl or .npz; - is standard output")
+      .value_name("LOG");
   verb.add_option("--format", options->format, "Format of the log: csv (as for -o -), jsonl, npz")
-      .one_of({"csv", "jsonl", "npz"});
+      .one_of({"csv", "jsonl", "npz"})
+      .only_with({"--output"});
   verb.add_option("--log", options->simulate.log,
                   "What the log has beside states; contacts of a .csv log go to NAME.contacts.csv")
       .one_of(bake::log_output_names())
@@ -266,7 +273,8 @@ void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--state-out", options->state_out,
                   "Save the full state at the end, for --state-in; not of a run that failed")
       .value_name("FILE");
-  verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset");
+  verb.add_option("--bake", options->bake, "Also write the motion as a layer over the asset")
+      .value_name("LAYER");
   verb.add_flag("--timing", options->timing, "Also say how fast it ran");
   verb.footer(
       "Examples:\n"

@@ -74,6 +74,10 @@ Result<bake::MuteCounts> mute(const StripArguments& options, Report& report) {
 }
 
 int run_strip(Report& report, const StripArguments& options) {
+  if (auto whole = options.asset.check_whole("physics goes from whole files, with all variants");
+      !whole) {
+    return report.fail(whole.error());
+  }
   Outputs outputs;
   if (auto claimed = claim(options, outputs); !claimed) {
     return report.fail(claimed.error());

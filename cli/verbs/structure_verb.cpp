@@ -14,6 +14,7 @@
 #include "cli/settings.h"
 #include "cli/update.h"
 #include "cli/verb.h"
+#include "cli/verbs/simready_arguments.h"
 #include "tenon/asset/answers/structured_json.h"
 #include "tenon/asset/repeat_edit.h"
 #include "tenon/asset/structure_asset.h"
@@ -30,10 +31,11 @@ struct StructureArguments {
   structure::StructureOptions structure;
   std::string output;
   std::string names;
-  std::string schema = "as-authored";
+  std::string schema;  ///< empty: as-authored, both for SimReady
   std::string links = "as-authored";
   bool dry_run = false;
   structure::WriteOptions write;
+  SimReadyArguments simready;
   UpdateArguments update{.made_by = "structure"};
 };
 
@@ -61,6 +63,10 @@ Result<Structured> make(const StructureArguments& options, Report& report) {
   Structured made;
   TENON_TRY(made.asset, structure_asset(options.asset.asset, options.asset.open_options(),
                                         options.structure, report.diagnostics));
+  if (!options.dry_run) {
+    TENON_CHECK(options.simready.complete(made.asset.package, options.asset.open_options().files,
+                                          options.output, report.diagnostics));
+  }
   if (options.update.update) {
     TENON_TRY(made.updated, update(made.asset.package, options.output, options.update,
                                    options.dry_run, report.diagnostics));
@@ -146,6 +152,9 @@ bool is_engine_name(const std::string& name) {
 
 int run(const Globals& globals, StructureArguments& options) {
   Report report(globals, "structure", options.asset.asset);
+  if (auto whole = options.asset.check_whole("all variants and payloads are taken in"); !whole) {
+    return report.fail(whole.error());
+  }
   if (options.update.update && (options.output.empty() || options.write.in_place)) {
     return report.fail(Error(ErrorCode::Invalid,
                              "--update is about a folder that was made of "
@@ -173,6 +182,19 @@ int run(const Globals& globals, StructureArguments& options) {
   }
   options.structure.names =
       *names == "tutorial" ? structure::Names::Tutorial : structure::Names::Current;
+  if (auto usable = options.simready.check(); !usable) {
+    return report.fail(usable.error());
+  }
+  if (options.simready.wanted() && *names == "tutorial") {
+    return report.fail(Error(ErrorCode::Invalid, "--profile simready has the names of today")
+                           .with_fix("give --names current"));
+  }
+  if (auto said = options.simready.put_into(options.structure, options.asset.asset); !said) {
+    return report.fail(said.error());
+  }
+  if (options.schema.empty()) {
+    options.schema = options.simready.wanted() ? "both" : "as-authored";
+  }
   options.structure.schema = generation_of(options.schema);
   options.structure.links = nesting_of(options.links);
   return run_structure(report, options);
@@ -187,6 +209,7 @@ void add_structure(const Command& parent, const Globals& globals, Chosen& chosen
   options->asset.add_to(verb);
   add_output_options(verb, *options);
   add_form_options(verb, *options);
+  options->simready.add_to(verb);
   verb.add_flag("--dry-run", options->dry_run, "List the files and write nothing");
   verb.footer(
       "The result is compared with the asset before it is written: each variant composes to the\n"

@@ -156,8 +156,9 @@ void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "and masses")
       .one_of({"physics"})
       .value_name("WHAT");
-  verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values");
-  verb.add_flag("-m,--metadata", options->metadata, "Also metadata");
+  verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values")
+      .not_with({"--show"});
+  verb.add_flag("-m,--metadata", options->metadata, "Also metadata").not_with({"--show"});
   verb.footer(
       "Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --mask /hand/palm\n"
       "  tenon tree hand.usda --show physics --physics physx");

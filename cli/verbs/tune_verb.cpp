@@ -212,7 +212,8 @@ void add_wish_options(const Command& verb, TuneArguments& options) {
       .file_only()
       .value_name("FILE");
   verb.add_flag("--save", options.save, "Write what was asked for; without it nothing is written");
-  verb.add_flag("--force", options.force, "Also what is unstable with these time steps");
+  verb.add_flag("--force", options.force, "Also what is unstable with these time steps")
+      .only_with({"--frequency", "--damping-ratio", "--gains"});
 }
 
 void add_test_options(const Command& verb, TuneArguments& options) {
@@ -225,18 +226,23 @@ void add_test_options(const Command& verb, TuneArguments& options) {
       .value_name("PATTERN");
   verb.add_option("--period", options.period, {1e-3, 1e4, false, false, "s"},
                   "Of a sine; how long a step is watched; without it 2 s")
-      .value_name("SECONDS");
+      .value_name("SECONDS")
+      .only_with({"--test=step", "--test=sine", "--test=steps"});
   verb.add_option("--amplitude", options.amplitude, {1e-6, 100, false, false, "%"},
                   "Of steps and sines in per cent of the range; without it 10, of the random walk "
                   "of stress in each step 1")
-      .value_name("PERCENT");
+      .value_name("PERCENT")
+      .only_with({"--test=step", "--test=sine", "--test=stress", "--test=steps"});
   verb.add_option("--duration", options.run.duration, {1e-3, 1e5, false, false, "s"},
                   "Of sine and stress; without it 4 periods, 10 s")
-      .value_name("SECONDS");
+      .value_name("SECONDS")
+      .only_with({"--test=sine", "--test=stress"});
   verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""}, "Of stress")
-      .value_name("NUMBER");
+      .value_name("NUMBER")
+      .only_with({"--test=stress"});
   verb.add_flag("--adversarial", options.adversarial,
-                "Stress: every 10 steps each joint to a random limit");
+                "Stress: every 10 steps each joint to a random limit")
+      .only_with({"--test=stress"});
 }
 
 }  // namespace

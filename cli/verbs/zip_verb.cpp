@@ -129,7 +129,8 @@ void add_zip(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--list", options->list, "Name the files of a package");
   verb.add_option("--extract", options->folder,
                   "Unpack into this folder, which must not exist yet; all or nothing");
-  verb.add_flag("--strict", options->strict, "Write nothing when a file is missing, and answer no");
+  verb.add_flag("--strict", options->strict, "Write nothing when a file is missing, and answer no")
+      .not_with({"--list", "--extract"});
   options->files.add_to(verb);
   verb.footer(
       "Everything that any variant names goes in: layers, textures, clips; files keep their "

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which format a description has is told by its contents. URDF and SDF are read here, MJCF by the
-// worker, and macros of xacro are expanded before anything else is looked at.
+// worker, and macros of xacro are expanded before anything else is looked at. Lines are then those
+// of text that no editor shows: findings name them in their messages, not as places.
 #include "tenon/asset/convert_file.h"
 
 #include <algorithm>
@@ -26,6 +27,8 @@
 
 namespace tenon {
 namespace {
+
+constexpr const char* kExpandedRule = "xacro.expanded";
 
 /// Told by the root element: a URDF may hold <mujoco> too, further down or in a comment.
 bool is_mjcf(std::string_view text) {
@@ -68,7 +71,7 @@ Result<std::string> expanded(const std::string& path, const ConvertFileOptions& 
   for (const std::string& folder : done.found_folders) {
     policy.add_found(folder);
   }
-  diagnostics.add(file_finding(Severity::Info, "xacro.expanded",
+  diagnostics.add(file_finding(Severity::Info, kExpandedRule,
                                "the macros were expanded by xacro; lines are those of its output",
                                path, 0, "see them with xacro " + shell_word(shown_path(path))));
   return std::move(done.text);
@@ -149,10 +152,26 @@ bytes::ReadPolicy policy_of(const std::string& path, const ConvertFileOptions& o
   return policy;
 }
 
-}  // namespace
+/// A place in the text that xacro made of a file becomes a part of the message.
+Diagnostic without_expanded_line(Diagnostic finding, const std::string& path) {
+  if (finding.file == path && finding.line != 0) {
+    finding.message += " (line " + std::to_string(finding.line) + " of the output of xacro)";
+    finding.line = finding.column = finding.end_line = finding.end_column = 0;
+  }
+  return finding;
+}
 
-Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
-                                   Diagnostics& diagnostics) {
+Error without_expanded_line(const Error& error, const std::string& path) {
+  std::vector<Diagnostic> further;
+  for (const Diagnostic& finding : error.further()) {
+    further.push_back(without_expanded_line(finding, path));
+  }
+  return Error(error.code(), without_expanded_line(error.diagnostic(), path))
+      .with_further(std::move(further));
+}
+
+Result<ConvertedFile> convert_read_file(const std::string& path, const ConvertFileOptions& options,
+                                        Diagnostics& diagnostics) {
   bytes::ReadPolicy policy = policy_of(path, options);
   TENON_TRY(robot::RobotModel model, read_model(path, options, policy, diagnostics));
   if (!options.name.empty()) {
@@ -168,6 +187,24 @@ Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOpt
                           model.joints.size(), meshes_found(model)};
   TENON_TRY(converted.layer,
             convert::convert_robot(std::move(model), robot, diagnostics, &converted.images));
+  return converted;
+}
+
+}  // namespace
+
+Result<ConvertedFile> convert_file(const std::string& path, const ConvertFileOptions& options,
+                                   Diagnostics& diagnostics) {
+  Diagnostics found;
+  Result<ConvertedFile> converted = convert_read_file(path, options, found);
+  const bool is_expanded = std::any_of(found.begin(), found.end(), [](const Diagnostic& finding) {
+    return finding.rule == kExpandedRule;
+  });
+  for (const Diagnostic& finding : found) {
+    diagnostics.add(is_expanded ? without_expanded_line(finding, path) : finding);
+  }
+  if (!converted && is_expanded) {
+    return without_expanded_line(converted.error(), path);
+  }
   return converted;
 }
 

@@ -132,7 +132,10 @@ structure::Ownership ownership(const FileQuestion& q) {
     return structure::owner_of_metadata(fields::variantSetNames);
   }
   if (q.edit.is_about_prim()) {
-    return structure::owner_of_type(q.edit.type_name);
+    // The scope goes where the poses go.
+    const bool is_scope =
+        q.edit.type_name == "Scope" && q.edit.object.name().view() == structure::kNamedPosesScope;
+    return structure::owner_of_type(is_scope ? Token(structure::kNamedPoseType) : q.edit.type_name);
   }
   return q.edit.is_about_api()
              ? structure::owner_of_api(q.edit.api)

@@ -42,9 +42,11 @@ Result<LayerAndImages> write_robot(const Source& source, Diagnostics& diagnostic
     write_body(source, links, link, layer);
     shapes.write(link);
   }
+  note_unused_density(source, links, layer);
   write_excluded_pairs(model, links, layer.builder());
   PhysicsScope physics(layer);
   const JointPrims joints = write_joints(source, links, physics);
+  write_robot_apart(source, links, physics);
   write_contact_classes(physics, model.contact_classes, shapes.prims().contact_members);
   write_loops(model.loops, links, physics);
   const MujocoPrims mujoco = write_mujoco_parts(model.mujoco, joints, shapes.prims(), physics);
@@ -70,7 +72,9 @@ Result<layer::Layer> convert_robot(robot::RobotModel model, const ConvertOptions
   }
   prepare_joints(options, model, diagnostics);
   TENON_TRY(LayerAndImages written, write_robot({model, tree, options}, diagnostics));
-  write_source(model, options, written.layer, diagnostics);
+  if (options.keep_source) {
+    write_source(model, options, written.layer, diagnostics);
+  }
   if (images != nullptr) {
     *images = std::move(written.images);
   }

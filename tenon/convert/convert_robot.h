@@ -45,8 +45,11 @@ struct ConvertOptions {
   /// The root moves: one called "world" or "base_link", which is held else, and one without mass,
   /// with that of its colliders or a millionth of what it carries.
   bool float_base = false;
-  bool fix_base = false;  ///< the root is held by the world, whatever its name
-  bool scene = false;     ///< the model's world too: gravity, time step, options of MuJoCo
+  bool fix_base = false;        ///< the root is held by the world, whatever its name
+  std::string robot_type = {};  ///< isaac:robotType, which no description says; empty: not said
+  /// A MJCF model is kept in the asset, with its files, so that it can be written again as it was.
+  bool keep_source = true;
+  bool scene = false;  ///< the model's world too: gravity, time step, options of MuJoCo
   /// Whether links of the robot touch each other; not given: as the description has it, of URDF
   /// not.
   std::optional<bool> self_collision;

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/convert/robot_metadata.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "tenon/convert/prepare_joints.h"
+
 namespace tenon::convert {
 
 using robot::Index;
@@ -48,6 +53,40 @@ void write_self_collision(const Source& source, RobotLayer& layer) {
                     "physxArticulation:enabledSelfCollisions", on);
 }
 
+/// The start that limits made necessary, as the named pose "valid"; none where all joints start
+/// where the description has them.
+void write_valid_pose(const Source& source, const JointPrims& joint_prims, RobotLayer& layer) {
+  std::vector<Path> joints;
+  std::vector<double> values;
+  for (std::size_t j = 0; j < source.model.joints.size(); ++j) {
+    const robot::Joint& joint = source.model.joints[j];
+    if (!joint.has_one_axis() || joint_prims.joints[j].empty()) {
+      continue;
+    }
+    const robot::Joint* leader = joint.mimic ? &source.model.joints[joint.mimic->leader] : nullptr;
+    const double start = start_of(joint, leader, source.options.start);
+    const bool slides = joint.motion() == robot::Motion::Linear;
+    joints.push_back(joint_prims.joints[j]);
+    values.push_back(slides ? start : start * 180 / M_PI);
+  }
+  const bool moves =
+      std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+  LayerBuilder& builder = layer.builder();
+  const Token type("IsaacNamedPose");
+  // A link may have that name.
+  if (!moves || builder.layer().has(layer.robot().child(Token("Named_Poses")))) {
+    return;
+  }
+  const Path scope = builder.define(layer.robot(), Token("Named_Poses"), Token("Scope"));
+  const Path pose = builder.define(scope, Token("valid"), type);
+  builder.set_targets(pose, type, "isaac:robot:pose:joints", joints);
+  builder.set_numbers(pose, type, "isaac:robot:pose:jointValues", values);
+  builder.set_numbers(pose, type, "isaac:robot:pose:jointFixed",
+                      std::vector<double>(values.size(), 0));
+  builder.set_value(pose, type, "isaac:robot:pose:valid", layer::Value(true));
+  builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:robot:namedPoses", {pose});
+}
+
 }  // namespace
 
 void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
@@ -76,9 +115,14 @@ void write_robot_metadata(const Source& source, const LinkPrims& link_prims,
     write_self_collision(source, layer);
   }
   builder.apply(layer.robot(), "IsaacRobotAPI");
+  if (!source.options.robot_type.empty()) {
+    builder.set_value(layer.robot(), "IsaacRobotAPI", "isaac:robotType",
+                      layer::Value(Token(source.options.robot_type)));
+  }
   builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotLinks", std::move(links));
   builder.set_targets(layer.robot(), "IsaacRobotAPI", "isaac:physics:robotJoints",
                       std::move(joints));
+  write_valid_pose(source, joint_prims, layer);
   if (source.options.tutorial) {
     declare_texts(layer.robot(), builder);
     for (const char* list : {"isaac:physics:robotJoints", "isaac:physics:robotLinks"}) {

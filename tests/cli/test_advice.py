@@ -47,6 +47,7 @@ PRINTED_BY = {
     "tenon/asset/many_environments": ("bench",),
     "tenon/asset/drives": ("drives",),
     "tenon/asset/pairs": ("pairs",),
+    "tenon/asset/poses": ("pose",),
     "tenon/asset/simulating/simulate_asset.cpp": RUNS,
     "tenon/asset/tuning": ("tune",),
     "tenon/asset/updating": ("convert", "structure"),

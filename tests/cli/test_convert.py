@@ -65,9 +65,16 @@ class StartPoses(unittest.TestCase):
             for row in poses["coordinates"]:
                 self.assertAlmostEqual(row["position"],
                                        self.STARTS[row["joint"].rpartition("/")[2]], places=6)
+            _, kept = tenon("pose", asset / "r.usda")  # that start, by name
+            self.assertEqual([pose["name"] for pose in kept["poses"]], ["valid"])
+            for row in kept["poses"][0]["joints"]:
+                self.assertIsNone(row["problem"], row)
+                self.assertAlmostEqual(row["value"],
+                                       self.STARTS[row["joint"].rpartition("/")[2]], places=6)
             _, findings = tenon("check", asset / "r.usda")
             told = set(self.rules(findings))
-            self.assertFalse(told & {"joint.outside-limit", "joint.state-differs",
+            self.assertFalse(told & {"pose.joint-missing", "pose.outside-limits",
+                                     "joint.outside-limit", "joint.state-differs",
                                      "joint.frames-apart", "drive.target-outside-limit",
                                      "mimic.violated"}, told)
             # Back in URDF it is the robot that it was.

@@ -60,6 +60,7 @@ READS = {
     "add": ["/World/box=cube"], "bake": ["-o", "baked.usda"], "bench": [], "cat": [], "check": [],
     "compare": [], "diff": ["{file}"], "dump": [], "drives": [], "dump-index": [],
     "explain": ["/World"], "inertia": [], "info": [], "pairs": [], "physics": [],
+    "pose": [],
     "record": ["-o", "film.png"], "remove": ["/World"],
     "rename": ["/World", "Other"], "report": ["-o", "page.html"], "set": ["/World.a=1"], "sim": [],
     "strip": ["-o", "stripped.usda"], "structure": ["-o", "structured/"], "tree": [],

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
-#include "tenon/dynamics/posture_text.h"
 #include "tenon/make_simulation.h"
 #include "tenon/math/angle.h"
 #include "tenon/physics/read_physics.h"
@@ -124,7 +124,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
   compared.setup.engine = wanted.engine;
   compared.setup.options.time_step = options.time_step;
   compared.setup.scene = physics::read_physics(stage, read_options(options.readings), found);
-  TENON_CHECK(dynamics::start_at(compared.setup.scene, options.pose));
+  TENON_CHECK(start_at(stage, compared.setup.scene, options.pose));
   compared.version = engine_info(wanted.engine).version;
   add_new(found, diagnostics);
   return compared;

@@ -16,13 +16,13 @@
 
 #include "tenon/asset/layers/relative_path.h"
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/bake/write_time_samples.h"
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
-#include "tenon/dynamics/posture_text.h"
 #include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/watches/report_faults.h"
@@ -116,7 +116,7 @@ Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOp
   read.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*read.stage, read_options(options.readings), found));
   TENON_CHECK(hand_on(found, diagnostics));
-  TENON_CHECK(dynamics::start_at(*read.scene, options.pose));
+  TENON_CHECK(start_at(*read.stage, *read.scene, options.pose));
   return read;
 }
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset_policy.h"
-#include "tenon/dynamics/posture_text.h"
 #include "tenon/glb/simplify_view.h"
 #include "tenon/glb/write_glb.h"
 #include "tenon/physics/read_physics.h"
@@ -34,7 +34,7 @@ Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAss
   read.stage = std::make_unique<stage::Stage>(std::move(stage));
   read.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*read.stage, read_options(options.readings), diagnostics));
-  TENON_CHECK(dynamics::start_at(*read.scene, options.pose));
+  TENON_CHECK(start_at(*read.stage, *read.scene, options.pose));
   return read;
 }
 

@@ -45,9 +45,10 @@ class NamePattern::Expression {
     }
   }
 
-  /// What is wrong with it; empty: nothing.
+  /// What is wrong with it; empty: nothing. Compiled as it was written: inside of "^(" and ")$", a
+  /// parenthesis too many would end theirs.
   std::string compile(const std::string& text) {
-    const int status = regcomp(&regex_, ("^(" + text + ")$").c_str(), REG_EXTENDED | REG_NOSUB);
+    const int status = regcomp(&regex_, text.c_str(), REG_EXTENDED);
     compiled_ = status == 0;
     if (compiled_) {
       return {};
@@ -56,8 +57,12 @@ class NamePattern::Expression {
     regerror(status, &regex_, why.data(), why.size());
     return why.data();
   }
+  /// The whole name. Of matches that begin first POSIX takes the longest, so where one is the
+  /// whole, that is found.
   bool matches(const std::string& name) const {
-    return regexec(&regex_, name.c_str(), 0, nullptr, 0) == 0;
+    regmatch_t found{};
+    return regexec(&regex_, name.c_str(), 1, &found, 0) == 0 && found.rm_so == 0 &&
+           static_cast<std::size_t>(found.rm_eo) == name.size();
   }
 
  private:

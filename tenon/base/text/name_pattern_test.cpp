@@ -27,6 +27,19 @@ TEST(NamePattern, MatchesNamesThatNoPrimHas) {
   EXPECT_FALSE(NamePattern::parse("elbow")->matches_text("left arm/elbow"));
 }
 
+TEST(NamePattern, AParenthesisTooManyMatchesNoPartOfAName) {
+  for (const char* text : {"a)|b", "a)|(b", "thumb)|(x", "x)|humb", "x)|(thum"}) {
+    const auto pattern = NamePattern::parse(text);
+    EXPECT_FALSE(pattern && pattern->matches_text("thumb")) << text;
+    EXPECT_FALSE(pattern && pattern->matches_text("ab")) << text;
+  }
+  EXPECT_FALSE(NamePattern::parse("a)|(b"));
+  EXPECT_TRUE(NamePattern::parse("a|ab|b")->matches_text("ab"));  // the longest one, not the first
+  EXPECT_TRUE(NamePattern::parse("a|(ab)?c?")->matches_text("abc"));
+  EXPECT_FALSE(NamePattern::parse("a*")->matches_text("ba"));
+  EXPECT_TRUE(NamePattern::parse("^th.*b$")->matches_text("thumb"));
+}
+
 TEST(NamePattern, SaysWhatIsWrongWithOne) {
   for (const char* text : {"", "(", "[a", "(a)\\1"}) {
     const auto pattern = NamePattern::parse(text);
