@@ -89,7 +89,7 @@ TEST(VendorSettings, EachActsIsNamedOrIsHarmless) {
   EXPECT_EQ(tally.physx,
             (std::map<std::string, int>{{"acts", 125}, {"harmless", 26}, {"named", 419}}));
   EXPECT_EQ(tally.others,
-            (std::map<std::string, int>{{"acts", 167}, {"harmless", 69}, {"named", 244}}));
+            (std::map<std::string, int>{{"acts", 168}, {"harmless", 78}, {"named", 244}}));
   EXPECT_EQ(tally.physx_runs.size(), 93u);
   expect_listed_to_act(tally.physx_runs);
 }

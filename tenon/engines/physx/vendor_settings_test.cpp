@@ -24,6 +24,7 @@ TEST(PhysxVendorSettings, EachActsIsNamedOrIsHarmless) {
             "IsaacImuSensor orientationFilterWidth\n"
             "IsaacImuSensor sensorPeriod\n"
             "IsaacImuSensor xformOpOrder\n"
+            "IsaacNamedPose xformOpOrder\n"
             "IsaacRaycastSensor enabled\n"
             "IsaacRaycastSensor maxRange\n"
             "IsaacRaycastSensor minRange\n"
