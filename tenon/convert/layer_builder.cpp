@@ -165,6 +165,14 @@ void LayerBuilder::set_numbers(Path prim, Token schema, std::string_view propert
       whole.push_back(whole_number(number));
     }
     set_value(prim, schema, property, Value(std::move(whole)));
+  } else if (type == "float[]") {
+    set_value(prim, schema, property, Value(std::vector<float>(numbers.begin(), numbers.end())));
+  } else if (type == "bool[]") {
+    layer::Array<bool> flags;
+    for (const double number : numbers) {
+      flags.push_back(number != 0);
+    }
+    set_value(prim, schema, property, Value(std::move(flags)));
   } else if (type == "double3" && numbers.size() == 3) {
     set_value(prim, schema, property, Value(Vec3d{{numbers[0], numbers[1], numbers[2]}}));
   } else if (type == "color4f" && numbers.size() == 4) {

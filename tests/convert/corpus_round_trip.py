@@ -45,7 +45,8 @@ def compiled(path):
 def converted(source, target):
     """The reason why there is no `target`; None: there is."""
     try:
-        process = subprocess.run([TENON, "convert", source, target, "--force", "-q", "--scene"],
+        scene = ["--scene"] if target.suffix == ".usda" else []
+        process = subprocess.run([TENON, "convert", source, target, "--force", "-q", *scene],
                                  capture_output=True, text=True, check=False, timeout=SECONDS)
     except subprocess.TimeoutExpired:
         return f"takes more than {SECONDS} s"

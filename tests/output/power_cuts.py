@@ -192,8 +192,13 @@ class Replay:
         texts = TEXT.findall(arguments)
         words = TEXT.sub("TEXT", arguments).split(", ")
         if call in ("clone", "clone3", "fork", "vfork"):
-            shared = "CLONE_FILES" in arguments
-            self.open[result] = self.open[process] if shared else dict(self.open[process])
+            # The child may have opened files before the parent's call is seen to return.
+            early = self.open.get(result, {})
+            if "CLONE_FILES" in arguments:
+                self.open[process].update(early)
+                self.open[result] = self.open[process]
+            else:
+                self.open[result] = {**self.open[process], **early}
             return False
         handler = getattr(self, "do_" + call, None)
         return bool(handler and handler(process, words, texts, result))

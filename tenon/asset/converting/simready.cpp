@@ -155,7 +155,7 @@ void name_unknown_facts(const structure::Package& package, Diagnostics& diagnost
       diagnostics.add(
           {Severity::Warning, "profile.unknown",
            std::string("SimReady asks for ") + row.name + ", which nothing says about this robot",
-           "", "", std::string("add --metadata ") + row.name + "=TEXT"});
+           "", "", std::string("give --metadata ") + row.name + "=TEXT"});
     }
   }
 }

@@ -240,7 +240,7 @@ Result<std::vector<PlacedPrim>> reach_targets(const stage::Stage& stage,
   std::vector<PlacedPrim> placed;
   for (const std::string& text : request.ik) {
     TENON_TRY(PlacedPrim one, read_place(frames, scene, text));
-    placed.push_back(std::move(one));
+    placed.push_back(one);
   }
   for (const std::string& text : request.rotation) {
     TENON_CHECK(add_turn(frames, text, placed));
