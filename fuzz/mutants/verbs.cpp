@@ -83,7 +83,7 @@ constexpr Row kForRobots[] = {
     {"convert {in} {out}", Leaves::Layer, "out.usda"},
     {"convert {in} {out}", Leaves::Layer, "out.usdc"},
     {"convert {in} {out} --merge-fixed --flat", Leaves::Folder, "out"},
-    {"convert {in} {out} --scene --physics mujoco", Leaves::Folder, "out"},
+    {"convert {in} {out} --scene", Leaves::Folder, "out"},
 };
 
 std::string replaced(const std::string& word, const Mutant& mutant, const std::string& output) {
