@@ -147,9 +147,10 @@ class Poses(support.FilesTestCase):
         name = os.path.relpath(path)
         self.assertEqual({"poses": tenon.poses(path)}, printed("pose", name))
         # Back to the link's place, from the start.
-        dynamics = tenon.Dynamics(tenon.physics(path), "right_index_1_joint=40")
+        scene = tenon.physics(path)
         link = "/inspire_hand/right_index_2"
-        place = dynamics.body_positions()[dynamics.body(link)]
+        number = [body.path for body in scene.bodies].index(link)
+        place = tenon.Dynamics(scene, "right_index_1_joint=40").body_positions[number]
         found = tenon.pose(path, ik={link: place})
         self.assertTrue(found["reach"]["reached"])
         angle = {row["joint"]: row["value"] for row in found["joints"]}

@@ -227,7 +227,7 @@ void become_mesh(Layer& content, Path prim, const Faces& faces) {
       high[i] = std::max(high[i], point[i]);
     }
   }
-  const auto put = [&](const char* name, Spec spec) {
+  const auto put = [&](const char* name, const Spec& spec) {
     put_property(content, prim.property(Token(name)), spec);
   };
   put("extent", new_attribute("float3[]", array_of(std::vector<Vec3f>{low, high})));
@@ -236,10 +236,10 @@ void become_mesh(Layer& content, Path prim, const Faces& faces) {
   put("points", new_attribute("point3f[]", array_of(faces.points)));
   Spec normals = new_attribute("normal3f[]", array_of(faces.normals));
   normals.set(Token("interpolation"), Value(Token("uniform")));
-  put("normals", std::move(normals));
+  put("normals", normals);
   Spec scheme = new_attribute("token", Value(Token("none")));
   scheme.set(fields::variability, layer::Variability::Uniform);
-  put("subdivisionScheme", std::move(scheme));
+  put("subdivisionScheme", scheme);
 }
 
 }  // namespace
