@@ -58,7 +58,8 @@ with open(sys.argv[1], encoding="utf-8") as file:
 public = [each for each in symbols if each["isExported"]]
 unknown = [each["name"] for each in public
            if not (each["isTypeKnown"] or each["isTypeAmbiguous"])
-           and not each["name"].startswith(("tenon_usd.gym.", "tenon_usd.tasks.env."))]
+           and not each["name"].startswith(("tenon_usd.gym.", "tenon_usd.tasks.env."))
+           and each["name"] not in ("tenon_usd.tasks.TaskEnv", "tenon_usd.tasks.single_task")]
 if unknown or len(public) < 300:
     sys.exit(f"{len(public)} names; without a type: {unknown}")
 print(f"pyright accepts {sys.argv[2]} examples; {len(public)} public names, each with a type")
