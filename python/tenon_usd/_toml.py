@@ -26,6 +26,17 @@ class Fault:
         return f"{place}: {self.row}: {self.message}" if self.row else f"{place}: {self.message}"
 
 
+class FileError(ValueError):
+    """A file that cannot be used: `path`, and a Fault for each thing that is wrong."""
+
+    def __init__(self, path: str, faults: Iterable[Fault]) -> None:
+        self.path, self.faults = path, tuple(faults)
+        super().__init__("\n".join(f"{path}{fault}" for fault in self.faults))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.path, self.faults)
+
+
 class Reader:
     """Collects the faults of one file while it is read. Not for bare keys in quotes."""
 

@@ -34,7 +34,7 @@ from .errors import InvalidError
 from .world import World
 
 Array = npt.NDArray[np.float64]
-#: What may stand for a number: the same in all episodes, or drawn at the start of each.
+#: A number: the same in all episodes, or drawn at the start of each.
 Number = float | Distribution
 COMMANDS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"}
 #: The longest delay, in time steps.

@@ -65,9 +65,8 @@ void write_valid_pose(const Source& source, const JointPrims& joint_prims, Robot
     }
     const robot::Joint* leader = joint.mimic ? &source.model.joints[joint.mimic->leader] : nullptr;
     const double start = start_of(joint, leader, source.options.start);
-    const bool slides = joint.motion() == robot::Motion::Linear;
     joints.push_back(joint_prims.joints[j]);
-    values.push_back(slides ? start : start * 180 / M_PI);
+    values.push_back(robot::JointPosition::from_si(start, joint.motion()).in_layer());
   }
   const bool moves =
       std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });

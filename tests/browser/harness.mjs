@@ -39,6 +39,23 @@ export function near(found, wanted, tolerance, what) {
   );
 }
 
+/** A stage whose "World" has a physics scene and `body`. */
+export const sceneOf = (body) => `#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    kilogramsPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World"
+{
+    def PhysicsScene "Scene"
+    {
+    }
+${body}
+}
+`;
+
 export const sleep = (milliseconds) => new Promise((go) => setTimeout(go, milliseconds));
 
 /** Asks until the answer is true, and gives it. */

@@ -132,7 +132,7 @@ def is_met(name, found, rows, met):
 
 
 class Importers:
-    """both_importers.py in a process of its own, made anew where it dies."""
+    """both_importers.py in a process of its own, started again where it dies."""
 
     def __init__(self, engine, site):
         self._command = [engine, "-B", str(HERE / "both_importers.py")]

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What happened, and when: contacts that begin, joints at their limits, drives at the most that they
-// may exert, what the engine tells (a joint that breaks), and a simulation that fails. Contacts and
+// What happened, and when: contacts that begin, joints at their limits, drives at their maximum
+// effort, what the engine tells (a joint that breaks), and a simulation that fails. Contacts and
 // joints are looked at twenty times a second; what is shorter may be missed.
 import { nameOf } from "../panel/dom";
 import type { ContactsNotice, PlotsNotice, SceneNotice, StateNotice } from "./connection";
@@ -18,7 +18,7 @@ export interface RunEvent {
 
 const most = 1000;
 const apart = 0.2; // [s] without contact after which it begins again
-const margin = 1e-3; // of a range or of the most that a drive exerts
+const margin = 1e-3; // of a range or of the maximum that a drive exerts
 
 export class Events extends EventTarget {
   list: RunEvent[] = [];

@@ -3,7 +3,7 @@
 //
 // The bar of what was simulated: it is scrubbed, stepped through and replayed, once or in a loop,
 // while the simulation stays where it is. Whatever steers the simulation comes back to its moment.
-import { h } from "../panel/dom";
+import { h, timeSlider } from "../panel/dom";
 import type { SceneNotice, StateNotice } from "./connection";
 import type { Events, RunEvent } from "./events";
 import type { History } from "./history";
@@ -42,15 +42,7 @@ export class Timeline {
     this.replay = button("Replay", "What was simulated, again ( e )", () => this.toggle());
     this.now = button("Now", "Back to the simulation ( w )", () => this.leave());
     this.loop = h("input", { type: "checkbox" });
-    this.slider = h("input", {
-      type: "range",
-      min: 0,
-      max: 1,
-      step: "any",
-      value: 0,
-      "aria-label": "Moment that is shown, in seconds",
-      oninput: () => this.seek(Number(this.slider.value)),
-    });
+    this.slider = timeSlider("Moment that is shown, in seconds", (time) => this.seek(time));
     this.bar = h(
       "div",
       { class: "timeline", role: "group", "aria-label": "What was simulated", hidden: true },

@@ -26,6 +26,20 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A slider for a time in seconds, whose range is set when it is known. */
+export function timeSlider(label: string, seek: (time: number) => void): HTMLInputElement {
+  const slider = h("input", {
+    type: "range",
+    min: 0,
+    max: 1,
+    step: "any",
+    value: 0,
+    "aria-label": label,
+    oninput: () => seek(Number(slider.value)),
+  });
+  return slider;
+}
+
 /** A number as people read it: at most `digits` that count. */
 export function figure(value: number | null | undefined, digits = 5): string {
   if (value === null || value === undefined) {

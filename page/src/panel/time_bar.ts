@@ -3,7 +3,7 @@
 //
 // Play, pause and the time of a baked motion. Not there without a motion.
 import type { Viewer } from "../scene/viewer";
-import { h } from "./dom";
+import { h, timeSlider } from "./dom";
 
 export class TimeBar {
   readonly element: HTMLElement;
@@ -14,15 +14,7 @@ export class TimeBar {
 
   constructor(private readonly viewer: Viewer) {
     this.button = h("button", { type: "button", title: "Space", onclick: () => this.toggle() }, "Play");
-    this.slider = h("input", {
-      type: "range",
-      min: 0,
-      max: 1,
-      step: "any",
-      value: 0,
-      "aria-label": "Time of the motion in seconds",
-      oninput: () => this.seek(Number(this.slider.value)),
-    });
+    this.slider = timeSlider("Time of the motion in seconds", (time) => this.seek(time));
     this.speed = h(
       "select",
       {

@@ -23,7 +23,7 @@ export interface Graphics {
 
 /**
  * What is drawn with. Unless it is said, edges are smoothed where that is not software's work. The
- * canvas has its size before it has a context: each change of it later makes all buffers anew.
+ * canvas has its size before it has a context: each change of it later allocates all buffers again.
  */
 export function openGraphics(antialias: boolean | undefined, { width, height }: Size): Graphics {
   const open = (smooth: boolean) => {

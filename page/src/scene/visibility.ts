@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which parts are drawn, and which let others show through. Paths are remembered, so that parts stay
-// hidden when the picture is read anew.
+// hidden when the picture is read again.
 import * as THREE from "three";
 
 type Kind = "visual" | "collider";

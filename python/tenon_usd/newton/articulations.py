@@ -15,7 +15,7 @@ from .joints import MERGED_TYPES, add_joint, add_merged, ends, world_frame
 from .poses import Pose, compose, inverse
 from .prims import PrimView, is_below, path_key
 
-#: Joints that equality constraints of MuJoCo stand for, which are no joints of a tree.
+#: Joints that become equality constraints of MuJoCo and are no joints of a tree.
 EQUALITIES = ("MjcEqualityConnectAPI", "MjcEqualityWeldAPI")
 
 
@@ -136,7 +136,7 @@ def _tree_of(importing: Importing, articulations: list[Any], links: Sequence[str
         if child != -1 or joint.exclude_from_articulation:
             wanted.append((at, joint, (parent, child)))
         else:
-            warn(joint.path, "a joint between nothing that moves; it is left out")
+            warn(joint.path, "a joint between nothing that moves; it is skipped")
     inside = {pair for at, joint, pair in wanted if at not in loops}
     tree = Tree()
     firsts: dict[tuple[int, int], str] = {}

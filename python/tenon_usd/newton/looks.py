@@ -23,7 +23,7 @@ OPACITIES = ("inputs:opacity", "inputs:alpha")
 
 @dataclasses.dataclass(frozen=True)
 class Look:
-    """Colour as it is displayed (sRGB), opacity, and whether a texture stands in their place."""
+    """Colour as it is displayed (sRGB), opacity, and whether a texture replaces them."""
 
     colour: Colour | None = None
     opacity: float | None = None

@@ -79,7 +79,7 @@ class Result(TypedDict, total=False):
     """Of tenon: which variant to select instead, and why; empty where nothing is better."""
 
 
-#: Keys that stand in the answer with return_deformable_results alone.
+#: Keys that the result has with return_deformable_results alone.
 DEFORMABLE_KEYS = (
     "path_cable_map", "path_cloth_map", "path_soft_map", "path_deformable_visual_map",
     "path_cable_attrs", "path_cloth_attrs", "path_soft_attrs", "path_attachment_map",

@@ -46,8 +46,8 @@ class PathView(str):
         return PathView(self.rstrip("/") + "/" + path)
 
 
-class AttributeView:
-    """An attribute, with the methods of pxr.Usd.Attribute."""
+class _PropertyView:
+    """What attributes and relationships have in common."""
 
     __slots__ = ("_name", "_prim")
 
@@ -61,6 +61,12 @@ class AttributeView:
 
     def GetName(self) -> str:  # noqa: N802
         return self._name
+
+
+class AttributeView(_PropertyView):
+    """An attribute, with the methods of pxr.Usd.Attribute."""
+
+    __slots__ = ()
 
     def GetPath(self) -> PathView:  # noqa: N802
         return PathView(f"{self._prim.path}.{self._name}")
@@ -78,21 +84,10 @@ class AttributeView:
         return self._prim.value(self._name)
 
 
-class RelationshipView:
+class RelationshipView(_PropertyView):
     """A relationship, with the methods of pxr.Usd.Relationship."""
 
-    __slots__ = ("_name", "_prim")
-
-    def __init__(self, prim: PrimView, name: str) -> None:
-        self._prim, self._name = prim, name
-
-    def __bool__(self) -> bool:
-        return self._prim.has(self._name)
-
-    IsValid = __bool__
-
-    def GetName(self) -> str:  # noqa: N802
-        return self._name
+    __slots__ = ()
 
     def HasAuthoredTargets(self) -> bool:  # noqa: N802
         return self._name in self._prim.names

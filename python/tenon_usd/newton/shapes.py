@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Colliders of the description into the builder, and what stands for their meshes."""
+"""Colliders of the description into the builder, and what replaces their meshes."""
 
 from __future__ import annotations
 
@@ -213,7 +213,7 @@ def _plane(
     return number
 
 
-#: Settings that meshes have in lists of the builder instead, and what stands for them.
+#: Settings that meshes have in lists of the builder instead, and what replaces them.
 _OF_PRIMITIVES = {
     "sdf_max_resolution": None,
     "sdf_target_voxel_size": None,

@@ -17,7 +17,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from .._toml import Fault, Reader, is_number, rows_of
+from .._toml import Fault, FileError, Reader, is_number, rows_of
 
 MAX_PLAN_BYTES = 1 << 20
 MAX_CASES = 1_000_000
@@ -32,15 +32,8 @@ TAKES = ("final", "first", "min", "max", "mean")
 RESERVED = ("case", "status", "time", "rule", "error")
 
 
-class PlanError(ValueError):
+class PlanError(FileError):
     """A plan that cannot be used: `path`, and a Fault for each thing that is wrong."""
-
-    def __init__(self, path: str, faults: Iterable[Fault]) -> None:
-        self.path, self.faults = path, tuple(faults)
-        super().__init__("\n".join(f"{path}{fault}" for fault in self.faults))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return PlanError, (self.path, self.faults)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -168,7 +168,7 @@ class TaskEnv(AssetVectorEnv):
         if name.startswith("goal."):
             return self._goal(name)
         if name not in self._parts:
-            raise NotFoundError(no_such(name, list(self._parts)) + "; the file names what is read")
+            raise NotFoundError(no_such(name, list(self._parts)) + "; the file has to name it")
         return self._now[:, self._parts[name]]
 
     def _read_now(self) -> None:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from .._toml import Fault, Reader, is_number, rows_of
+from .._toml import Fault, FileError, Reader, is_number, rows_of
 from ..actuators import COMMANDS, Actuator, DCMotor, Delay, Number, PD, Saturation, Stage
 from ..draws import Choice, Distribution, LogUniform, Normal, Uniform
 
@@ -32,15 +32,8 @@ STAGES: dict[str, type[Any]] = {
     "delay": Delay, "pd": PD, "dc_motor": DCMotor, "saturation": Saturation}
 
 
-class TaskError(ValueError):
+class TaskError(FileError):
     """A task that cannot be used: `path`, and a Fault for each thing that is wrong."""
-
-    def __init__(self, path: str, faults: Iterable[Fault]) -> None:
-        self.path, self.faults = path, tuple(faults)
-        super().__init__("\n".join(f"{path}{fault}" for fault in self.faults))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return TaskError, (self.path, self.faults)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -349,7 +342,7 @@ def _draws(reader: _TaskReader, table: Mapping[str, Any]) -> dict[str, Distribut
 
 def _each(reader: _TaskReader, table: Mapping[str, Any], key: str,
           read: Callable[[_TaskReader, Mapping[str, Any]], Any]) -> tuple[Any, ...]:
-    """The rows [[key]] as values; those with faults are left out."""
+    """The rows [[key]] as values; those with faults are skipped."""
     reader.at_top()
     rows = rows_of(reader, table, key)
     if len(rows) > MAX_ROWS:

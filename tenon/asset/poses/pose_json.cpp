@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A joint stands in the answer with what the scene says of it, so that limits and followers are
+// The answer has each joint with what the scene says of it, so that limits and followers are
 // seen beside the value; a value whose joint is not there keeps its name alone.
 #include "tenon/asset/poses/pose_json.h"
 

@@ -9,7 +9,7 @@ namespace tenon {
 
 /// The named poses that the asset keeps: {"poses": [{"name", "path", "robot", "startLink",
 /// "endLink", "valid", "joints": [..]}]}. A joint has "joint", "dof" (null where it has not one),
-/// "value" in rad or m as it stands in the asset, "lower" and "upper" (null: unlimited), "fixed",
+/// "value" in rad or m as the asset has it, "lower" and "upper" (null: unlimited), "fixed",
 /// "follows" (null or the leader), and "problem": null, "missing" or "outside".
 answers::Json named_poses_json(const PoseOfAsset& pose);
 /// The same of one pose, at "pose".

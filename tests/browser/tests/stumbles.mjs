@@ -6,24 +6,8 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { connect } from "node:net";
 import { join } from "node:path";
-import { ask, button, drawn, hold, listen, openTab, settled, until } from "../harness.mjs";
+import { ask, button, drawn, hold, listen, openTab, sceneOf, settled, until } from "../harness.mjs";
 import { differing, pixels } from "../silhouette.mjs";
-
-const scene = (body) => `#usda 1.0
-(
-    defaultPrim = "World"
-    metersPerUnit = 1
-    kilogramsPerUnit = 1
-    upAxis = "Z"
-)
-def Xform "World"
-{
-    def PhysicsScene "Scene"
-    {
-    }
-${body}
-}
-`;
 
 const fast = (name, x, speed) => `
     def Cube "${name}" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
@@ -53,7 +37,7 @@ function written(stage, text, name = "scene.usda") {
 
 /** Boxes that PhysX cannot keep together. */
 export const failing = (stage) =>
-  written(stage, scene(fast("a", 0, "1e12") + fast("b", 0.2, 0) + fast("c", 0.1, 0)));
+  written(stage, sceneOf(fast("a", 0, "1e12") + fast("b", 0.2, 0) + fast("c", 0.1, 0)));
 
 const failed = (page) => page.evaluate(() => window.tenonPage.viewer.failed);
 const places = (page) =>
@@ -143,7 +127,7 @@ export const tests = {
   },
 
   async undo_and_redo_by_keys(stage) {
-    const asset = written(stage, scene(fast("box", 0, 0)));
+    const asset = written(stage, sceneOf(fast("box", 0, 0)));
     const before = readFileSync(asset, "utf8");
     const page = await stage.live(await stage.view(asset));
     await listen(page);
@@ -159,7 +143,7 @@ export const tests = {
   },
 
   async every_prim_is_found(stage) {
-    const asset = written(stage, scene(others));
+    const asset = written(stage, sceneOf(others));
     const page = await stage.live(await stage.view(asset));
     const prims = stage.tenon(["tree", "--json", asset]).prims.map((one) => one.path);
     hold(prims.length === 6, `the scene has the prims ${prims}`);
@@ -239,7 +223,7 @@ export const tests = {
   },
 
   async a_broken_file_is_named_and_the_picture_is_old(stage) {
-    const asset = written(stage, scene(fast("box", 0, 0)));
+    const asset = written(stage, sceneOf(fast("box", 0, 0)));
     const good = readFileSync(asset, "utf8");
     const page = await stage.live(await stage.view(asset, "--watch"));
     const note = page.locator(".old");

@@ -5,7 +5,7 @@
 // a camera that follows a body and one without perspective, fields beside sliders, and the address.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { ask, button, drawn, hold, listen, near, openTab, settled, until } from "../harness.mjs";
+import { ask, button, drawn, hold, listen, near, openTab, sceneOf, settled, until } from "../harness.mjs";
 import { differing, pixels } from "../silhouette.mjs";
 
 const hand = (stage) => stage.path("examples/inspire_hand/inspire_hand.usda");
@@ -19,29 +19,13 @@ const cube = (name, at, more = "", size = 0.1) => `
         uniform token[] xformOpOrder = ["xformOp:translate"]
     }`;
 
-const world = (body) => `#usda 1.0
-(
-    defaultPrim = "World"
-    metersPerUnit = 1
-    kilogramsPerUnit = 1
-    upAxis = "Z"
-)
-def Xform "World"
-{
-    def PhysicsScene "Scene"
-    {
-    }
-${body}
-}
-`;
-
 const rigid = ' (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])';
 
 /** Two boxes, 0.5 m apart along X. */
-const boxes = world(cube("a", "0, 0, 0", rigid) + cube("b", "0.5, 0, 0", rigid));
+const boxes = sceneOf(cube("a", "0, 0, 0", rigid) + cube("b", "0.5, 0, 0", rigid));
 
 /** A wheel without limits that a drive turns by its damping alone, and a slide that gravity lets be. */
-const wheel = world(`
+const wheel = sceneOf(`
     def Cube "base" (prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"])
     {
         double size = 0.1
