@@ -4,13 +4,13 @@
 """The checks of this folder reject what they are there to reject."""
 
 import os
+import pathlib
 import tempfile
 import types
 import unittest
 from unittest import mock
 
 import check_answers
-import check_classes
 import check_folders
 import check_limits
 import check_links
@@ -19,6 +19,8 @@ import check_sizes
 import check_snippets
 import check_text
 import check_words
+import make_architecture
+import report_counts
 import tidy
 
 RULE = "base :\nlayer : base\nengines : base\nengines/mujoco : base engines\ntenon : base layer\n"
@@ -230,11 +232,6 @@ class Sizes(unittest.TestCase):
         self.assertEqual(self.run_on(61, excuse), [])
         self.assertEqual(len(self.run_on(60, excuse)), 1)
 
-    def test_rooms(self):
-        files = [f"tenon/base/a{number}.h" for number in range(40)]
-        self.assertEqual(check_sizes.crowded(files + ["tenon/base/more/b.h", "tests/b.py"]), [])
-        self.assertEqual(len(check_sizes.crowded(files + ["tenon/base/b_test.cpp"])), 1)
-
     def test_long_files_have_a_head(self):
         licence, body = "// a\n// b\n", "int x;\n" * 150
         self.assertTrue(check_sizes.lacks_head("tenon/base/a.cpp", licence + body))
@@ -244,6 +241,32 @@ class Sizes(unittest.TestCase):
                            ("tenon/base/a.h", licence + body), ("tests/a.cpp", licence + body),
                            ("tenon/base/a.cpp", licence + "int x;\n")]:
             self.assertFalse(check_sizes.lacks_head(path, text), path)
+
+
+class Architecture(unittest.TestCase):
+    FOLDERS = ("# Head.\n\nbase :\n# words\n#    of all\n#+ a limit | `a.h`\n#    and `b.h`\n"
+               "layer : base\n# one layer\n#> text -> Layer\nstage : base layer\n# the scene\n"
+               "#@ cli/\n# the command\n\n# Tests.\nstage tests : base\n")
+    MARKS = make_architecture.BEGIN + make_architecture.END
+
+    def made(self, folders, document):
+        with tree({"tenon/folders.txt": folders, "ARCHITECTURE.md": document}) as root:
+            texts, faults = make_architecture.made(pathlib.Path(root))
+            return [texts[path] for path in sorted(texts)], faults
+
+    def test_table_and_page(self):
+        (table, page), faults = self.made(self.FOLDERS, "Before.\n" + self.MARKS + "Behind.\n")
+        self.assertEqual(faults, [])
+        self.assertIn("| `tenon/base` | words of all |  |  |\n", table)
+        self.assertIn("| `tenon/layer` | one layer | text -> Layer | base |\n", table)
+        self.assertIn("| `tenon/stage` | the scene |  | layer |\n| `cli/` | the command |", table)
+        self.assertTrue(table.startswith("Before.\n") and table.endswith("Behind.\n"))
+        self.assertIn("## tenon/base\n\n| to add | go to |\n|---|---|\n"
+                      "| a limit | `a.h` and `b.h` |\n", page)
+
+    def test_faults(self):
+        self.assertEqual(len(self.made("base :\n", self.MARKS)[1]), 1)
+        self.assertEqual(len(self.made(self.FOLDERS, "no marks\n")[1]), 1)
 
 
 class Classes(unittest.TestCase):
@@ -266,7 +289,7 @@ class Classes(unittest.TestCase):
     ]
 
     def count(self, text):
-        return {name: count for name, _, count in check_classes.classes(text)}
+        return {name: count for name, _, count in report_counts.classes(text)}
 
     def test_counts(self):
         for text, wanted in self.CASES:
@@ -280,13 +303,11 @@ class Classes(unittest.TestCase):
         self.assertEqual(self.count("enum class A { One };\nclass B;\n"), {})
         self.assertEqual(self.count("struct A { class B { int f(); }; };\n"), {"A": 0, "B": 1})
 
-    def test_limit(self):
-        for count, faults in ((20, 0), (21, 1)):
-            text = "class A {\n" + "".join(f"  int f{i}();\n" for i in range(count)) + "};\n"
-            with self.subTest(count=count), tree({"tenon/base/a.h": text}) as root:
-                rows = check_classes.check(root)
-                self.assertEqual(rows, [(count, "tenon/base/a.h", 1, "A")])
-                self.assertEqual(len(check_classes.over_the_limit(rows)), faults)
+    def test_rows(self):
+        text = "class A {\n" + "".join(f"  int f{i}();\n" for i in range(21)) + "};\n"
+        with tree({"tenon/base/a.h": text, "tenon/base/b.cpp": "class B {};\n"}) as root:
+            self.assertEqual(report_counts.class_rows(root)[0], (21, "tenon/base/a.h", 1, "A"))
+            self.assertEqual(report_counts.folder_rows(root), [(2, "tenon/base")])
 
 
 class Snippets(unittest.TestCase):
@@ -376,7 +397,7 @@ class Text(unittest.TestCase):
             ("tenon/base/a.h", self.HEAD + "// " + "x" * 98 + "\n"),
             ("tenon/base/a.h", self.HEAD + "// https:" + "//example.invalid/simple\n"),
             ("tenon/base/text_utils.h", self.HEAD),
-            ("ARCHITECTURE.md", "x\n" * 201),
+            ("ARCHITECTURE.md", "x\n" * 151),
             ("README.md", "x\n" * 101),
             ("README.md", "pip install" " tenon-usd\n"),
             ("CHANGELOG.md", "x\n" * 151),

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Holds how much a class may do behind its door: at most 20 private member functions. More are
-steps on data that everything may touch: values and free functions say what each of them needs.
+"""Reports the largest classes by private member functions and the fullest folders by files, for
+whoever looks for what should be divided. A report, no test: a limit on counts would shape the
+design instead of the reader's needs.
+
+usage: report_counts.py [--most N]
 
 Counted is what is declared below `private:` of a class or struct, constructors included, friends
-and the functions of classes inside not. Exit 0: held; 1: each class with more on a line.
+and the functions of classes inside not; of a folder its own files, tests included.
 """
 
+import argparse
 import collections
 import os
 import re
@@ -15,7 +19,7 @@ import sys
 
 import source_files
 
-PRIVATE_FUNCTIONS = 20
+PROGRAM = ("tenon/", "cli/", "worker/")
 PLACES = ("tenon/", "cli/", "worker/", "tests/", "bench/", "fuzz/")
 # Comments, literals and lines of the preprocessor, with its continued ones: no code of a class.
 NO_CODE = re.compile(
@@ -97,7 +101,8 @@ def classes(text):
         yield found[2], line, private_functions(found[1], inside)
 
 
-def check(root):
+def class_rows(root):
+    """[(number of private member functions, file, line, name)], the largest first."""
     found = []
     for path in source_files.project_files(root):
         if path.startswith(PLACES) and path.endswith(source_files.CODE):
@@ -106,19 +111,24 @@ def check(root):
     return sorted(found, reverse=True)
 
 
-def over_the_limit(rows):
-    return [row for row in rows if row[0] > PRIVATE_FUNCTIONS]
+def folder_rows(root):
+    """[(number of files, folder of the program)], the fullest first."""
+    folders = collections.Counter(os.path.dirname(path) for path in
+                                  source_files.project_files(root)
+                                  if path.startswith(PROGRAM) and path.endswith(source_files.CODE))
+    return sorted(((count, folder) for folder, count in folders.items()), reverse=True)
 
 
 def main():
-    found = check(source_files.ROOT)
-    faults = over_the_limit(found)
-    for count, path, line, name in faults:
-        print(f"{path}:{line}: `{name}` has {count} private member functions, at most "
-              f"{PRIVATE_FUNCTIONS}: make values and free functions of them")
-    print(f"{len(found)} classes, {len(faults)} with too many private member functions")
-    return 1 if faults or not found else 0
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--most", type=int, default=10, help="rows of each list")
+    most = parser.parse_args().most
+    for count, path, line, name in class_rows(source_files.ROOT)[:most]:
+        print(f"{count:4} private member functions  {path}:{line}: {name}")
+    for count, folder in folder_rows(source_files.ROOT)[:most]:
+        print(f"{count:4} files  {folder}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
