@@ -331,15 +331,14 @@ Result<Json> import_robot(const std::string& input, const std::string& output,
   return with_update(converted_json(counts, output), updated, how);
 }
 
-/// An asset as a description: MJCF or URDF.
+/// An asset as a description for other programs.
 Result<Json> export_robot(const std::string& input, const std::string& output,
-                          const OpenOptions& open, bool force, Job& job) {
+                          DescribeOptions options, const std::string& format, bool force,
+                          Job& job) {
   GuardedRun guard;
+  TENON_TRY(options.format, description_format(output, format));
   TENON_CHECK(force ? Result<void>() : structure::check_not_edited(output));
-  const DescriptionFormat format =
-      output.ends_with(".urdf") ? DescriptionFormat::Urdf : DescriptionFormat::Mjcf;
-  TENON_TRY(const AssetDescription description,
-            describe_asset(input, open, format, output, job.found));
+  TENON_TRY(const AssetDescription description, describe_asset(input, options, output, job.found));
   TENON_CHECK(write_noted(description.made, output, force, job));
   return description_json(description, output);
 }
@@ -359,13 +358,21 @@ nb::object convert(const std::filesystem::path& input, const std::filesystem::pa
                    bool merge_fixed, bool scene, std::optional<bool> self_collision,
                    const std::map<std::string, std::string>& packages, const std::string& model,
                    const std::map<std::string, std::string>& arg, bool force, bool update,
-                   const std::string& conflicts) {
+                   const std::string& conflicts, const std::string& format,
+                   const std::string& assets) {
   const ConvertFileOptions options =
       convert_options(arguments, name, rules, density, start_valid, fix_base, float_base,
                       merge_fixed, scene, self_collision, packages, model, arg);
   const UpdateArguments how{update, conflicts};
-  return answer_of([input, output, options, force, how](Job& job) -> Result<Json> {
+  return answer_of([input, output, options, force, how, format, assets](Job& job) -> Result<Json> {
     if (!is_asset(input)) {
+      if (!format.empty() || !assets.empty()) {
+        return Error(
+                   ErrorCode::Invalid,
+                   "format and assets are about descriptions of an asset, and this makes an asset")
+            .with_rule("convert.option")
+            .with_fix("leave them out");
+      }
       return import_robot(input.string(), output.string(), options, force, how, job);
     }
     if (how.update) {
@@ -373,7 +380,8 @@ nb::object convert(const std::filesystem::path& input, const std::filesystem::pa
                    "update is about assets, and this makes a description of one")
           .with_fix("leave update out");
     }
-    return export_robot(input.string(), output.string(), options.open, force, job);
+    return export_robot(input.string(), output.string(), {options.open, {}, assets}, format, force,
+                        job);
   });
 }
 
@@ -483,7 +491,7 @@ void bind_functions(nb::module_& module) {
   module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "rules"_a,
              "density"_a.none(), "start_valid"_a, "fix_base"_a, "float_base"_a, "merge_fixed"_a,
              "scene"_a, "self_collision"_a.none(), "packages"_a, "model"_a, "arg"_a, "force"_a,
-             "update"_a, "conflicts"_a,
+             "update"_a, "conflicts"_a, "format"_a, "assets"_a,
              nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
                      "arguments: OpenArguments, name: str, rules: Mapping[str, Sequence[str]], "
                      "density: float | None, start_valid: bool, fix_base: bool, "
@@ -491,7 +499,7 @@ void bind_functions(nb::module_& module) {
                      "self_collision: bool | None, "
                      "packages: Mapping[str, str], model: str, arg: Mapping[str, str], "
                      "force: bool, update: bool, "
-                     "conflicts: str) -> dict[str, Any]"));
+                     "conflicts: str, format: str, assets: str) -> dict[str, Any]"));
   module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,
              "engines"_a, "update"_a, "conflicts"_a,
              nb::sig("def structure(path: str | os.PathLike[str], "

@@ -232,11 +232,16 @@ def convert(
     force: bool = False,
     update: bool = False,
     conflicts: str | None = None,
+    format: str = "",
+    assets: str = "",
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """A robot's description (URDF, SDF, MJCF) as an asset, or an asset as a description.
 
-    `output` is a file, or a folder for Asset Structure 3.0; of an asset an .xml or .urdf file.
+    `output` is a file, or a folder for Asset Structure 3.0; of an asset an .xml (MJCF), .urdf,
+    .sdf, .srdf or .py file. `format` says what it is where the ending does not: "isaaclab" or
+    "mjlab" of a .py file, "ros2_control" of an .urdf file. `assets` is the folder below that of the
+    output for meshes and images, as a name; without it meshes of MJCF are in its text.
     `gains` are K, D of a drive for each joint [N m/rad, N m s/rad or N/m, N s/m], or a JSON file.
     `armature` [kg m^2 or kg] and `friction` [N m or N] are those of joints with one axis,
     `collision` is what meshes of links collide as: "hull", "decomposition", "sphere" or "none" (the
@@ -249,7 +254,8 @@ def convert(
     the model says for SDF and MJCF. `packages` are folders of ROS packages and models of Gazebo by
     name, `model` is the one of an SDF file with several, `arg` are arguments of a file with macros
     of xacro. Files that were edited since they were written stay, unless `force`.
-    Returns {"output", "links", "joints", "diagnostics"}.
+    Returns {"output", "links", "joints", "diagnostics"}; of MJCF "bodies" in place of links, of
+    configurations in Python joints alone. What the description lacks is in the diagnostics.
 
     `update` takes over what the source changed since and keeps what was edited in `output`, and
     adds "updated": {"files", "edits", "changes", "moved", "conflicts"}; give the options that the
@@ -288,6 +294,8 @@ def convert(
         force,
         update,
         conflicts or "",
+        format,
+        assets,
     )
 
 

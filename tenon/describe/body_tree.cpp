@@ -107,6 +107,10 @@ void BodyTreeReader::add_body(scene::Index body, const Vec3d& anchor) {
   inertial.mass = described.mass;
   inertial.center_of_mass = described.center_of_mass - anchor;
   inertial.inertia = described.inertia;
+  tree().links()[number].gravity_scale = described.gravity_scale;
+  if (source_.is_sdf() && described.gravity_scale != 0 && described.gravity_scale != 1) {
+    source_.left_out(described.path, "gravity is scaled by a factor other than 0");
+  }
   made_.link_of_body[body] = number;
   if (described.kinematic) {
     source_.left_out(described.path, "the body is kinematic: it follows its animation");
@@ -120,11 +124,17 @@ void BodyTreeReader::add_carried_body(scene::Index body) {
   const bool forward = !hung.reversed;
   const Pose& near = forward ? described.frame0 : described.frame1;
   const Pose& far = forward ? described.frame1 : described.frame0;
-  add_body(body, far.position);
+  // URDF has joints turn where links stand; SDF lets them stand elsewhere in their links.
+  const Pose anchor{far.position, kIdentityRotation};
+  add_body(body, source_.is_sdf() ? Vec3d{} : far.position);
   robot::Joint joint = read_joint(source_, described);
   joint.parent = hung.parent ? made_.link_of_body[*hung.parent] : *tree().world();
   joint.child = made_.link_of_body[body];
   joint.origin = inverse(tree().in_body(joint.parent)) * near * inverse(Pose{{}, far.orientation});
+  if (source_.is_sdf()) {
+    joint.origin = joint.origin * inverse(anchor);
+    joint.frame = anchor;
+  }
   if (joint.has_one_axis() || joint.kind == JointKind::Planar) {
     joint.axis = rotate(far.orientation, joint.axis) * (forward ? 1.0 : -1.0);
   }

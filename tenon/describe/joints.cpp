@@ -103,6 +103,12 @@ void take_numbers(SceneSource& source, const scene::Joint& described, robot::Joi
     }
     joint.effort_limit = std::min(joint.effort_limit, drive.max_force);
   }
+  if (source.is_sdf()) {
+    joint.armature = described.armature;
+    joint.stiffness = described.stiffness;
+    joint.spring_reference = described.spring_reference;
+    return;
+  }
   if (described.armature != 0) {
     source.left_out(described.path, "the joint has an armature");
   }

@@ -30,10 +30,17 @@ Placed SceneSource::placed(const stage::Prim& prim) {
 }
 
 void SceneSource::left_out(Path prim, const std::string& why) {
+  struct Names {
+    const char* rule;
+    const char* format;
+  };
+  const Names names = is_mjcf()  ? Names{"mjcf.left-out", "MJCF"}
+                      : is_sdf() ? Names{"sdf.left-out", "SDF"}
+                                 : Names{"urdf.left-out", "URDF"};
   Diagnostic finding;
   finding.severity = Severity::Warning;
-  finding.rule = is_mjcf() ? "mjcf.left-out" : "urdf.left-out";
-  finding.message = why + ", which " + (is_mjcf() ? "MJCF" : "URDF") + " does not support; dropped";
+  finding.rule = names.rule;
+  finding.message = why + ", which " + names.format + " does not support; dropped";
   finding.prim = prim.str();
   diagnostics_.add(std::move(finding));
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/describe/format.h"
 #include "tenon/math/transform.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/stage/stage.h"
@@ -13,9 +13,6 @@
 
 /// Internal to this folder.
 namespace tenon::describe {
-
-/// The target format, and what it supports.
-enum class Format : std::uint8_t { Urdf, Mjcf };
 
 /// A prim's matrix to metres in the world as a rigid pose and the remaining factor.
 struct Placed {
@@ -38,6 +35,7 @@ class SceneSource {
   const stage::Stage& stage() const { return stage_; }
   const scene::PhysicsScene& scene() const { return scene_; }
   bool is_mjcf() const { return format_ == Format::Mjcf; }
+  bool is_sdf() const { return format_ == Format::Sdf; }
 
   /// The display name of a prim where there is one, as descriptions have names that prims cannot
   /// have; `otherwise` without a prim.

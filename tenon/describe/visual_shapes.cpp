@@ -176,18 +176,18 @@ std::optional<robot::Geometry> round_of(const stage::Prim& prim, const Vec3d& sc
   return round;
 }
 
-std::optional<robot::Geometry> geometry_of(const stage::Prim& prim, const Vec3d& scale,
-                                           bool is_mjcf) {
+std::optional<robot::Geometry> geometry_of(const SceneSource& source, const stage::Prim& prim,
+                                           const Vec3d& scale) {
   robot::Geometry geometry;
   if (prim.is_a("Cube")) {
     geometry.kind = GeometryKind::Box;
     geometry.half_extents = scaled(scale, number(prim, "size")) * 0.5;
     return geometry;
   }
-  if (is_mjcf && prim.is_a("Plane")) {
+  if ((source.is_mjcf() || source.is_sdf()) && prim.is_a("Plane")) {
     return plane_of(prim, scale);
   }
-  if (is_mjcf && prim.is_a("Sphere")) {
+  if (prim.is_a("Sphere") && (source.is_mjcf() || (source.is_sdf() && !is_uniform(scale)))) {
     geometry.kind = GeometryKind::Ellipsoid;
     geometry.half_extents = scaled(scale, number(prim, "radius"));
     return geometry;
@@ -203,7 +203,7 @@ std::optional<VisualShape> read_visual_shape(SceneSource& source, const stage::P
     return read_mesh(source, prim, link);
   }
   const auto [pose, rest] = source.placed(prim);
-  const auto geometry = geometry_of(prim, row_scale(rest), source.is_mjcf());
+  const auto geometry = geometry_of(source, prim, row_scale(rest));
   if (!geometry) {
     return std::nullopt;
   }

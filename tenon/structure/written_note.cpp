@@ -68,9 +68,6 @@ void change_note(layer::Layer& layer, Change change) {
   }
 }
 
-/// No layer begins so.
-bool is_xml(std::string_view contents) { return contents.starts_with('<'); }
-
 /// The place of the own digest in the bytes of a layer, and its length.
 struct Place {
   std::size_t at = 0;
@@ -85,7 +82,7 @@ std::optional<Place> place_of_digest(std::string_view contents, const std::strin
     const bool found = at != std::string_view::npos && at + 16 <= contents.size();
     return found ? std::optional(Place{at + 8, 8}) : std::nullopt;
   }
-  if (is_xml(contents)) {
+  if (holds_xml_note(contents)) {
     const auto note = xml_note_of(contents);
     return note ? std::optional(Place{note->own_at, kDigestDigits}) : std::nullopt;
   }
@@ -136,7 +133,7 @@ Dictionary dictionary_of(const XmlNote& xml) {
 /// The note in the bytes of a file, as a copy.
 std::optional<Dictionary> note_in(std::shared_ptr<const bytes::FileBytes> contents,
                                   const std::string& file) {
-  if (is_xml(contents->text())) {
+  if (holds_xml_note(contents->text())) {
     const auto xml = xml_note_of(contents->text());
     return xml ? std::optional(dictionary_of(*xml)) : std::nullopt;
   }

@@ -43,27 +43,46 @@ std::string unescaped(std::string_view text) {
   return name;
 }
 
+/// What each line of the note begins with: nothing in XML, a mark of comments in Python, whose
+/// files begin with the text that describes them. None for other text.
+std::optional<std::string_view> line_start(std::string_view text) {
+  if (text.starts_with('<')) {
+    return "";
+  }
+  return text.starts_with("\"\"\"") ? std::optional<std::string_view>("# ") : std::nullopt;
+}
+
 }  // namespace
+
+bool holds_xml_note(std::string_view text) { return line_start(text).has_value(); }
 
 std::string with_xml_note(std::string text, const std::map<std::string, std::uint64_t>& others) {
   text += text.ends_with('\n') ? "" : "\n";
-  text += kBegin;
-  text += hex_of(0) + "\n";
+  const std::string start(line_start(text).value_or(""));
+  text += start + std::string(kBegin) + start + hex_of(0) + "\n";
   for (const auto& [name, digest] : others) {
-    text += hex_of(digest) + " " + escaped(name) + "\n";
+    text += start + hex_of(digest) + " " + escaped(name) + "\n";
   }
-  return text += kEnd;
+  return text += start + std::string(kEnd);
 }
 
 std::optional<XmlNote> xml_note_of(std::string_view text) {
   const std::size_t begin = text.rfind(kBegin);
-  if (!text.starts_with('<') || begin == std::string_view::npos || !text.ends_with(kEnd)) {
+  const std::optional<std::string_view> start = line_start(text);
+  if (!start || begin == std::string_view::npos ||
+      !text.ends_with(std::string(*start) + std::string(kEnd))) {
     return std::nullopt;
   }
   XmlNote note;
-  note.own_at = begin + kBegin.size();
-  std::string_view lines = text.substr(note.own_at, text.size() - note.own_at - kEnd.size());
+  const std::size_t first_line = begin + kBegin.size();
+  note.own_at = first_line + start->size();
+  const std::size_t behind = text.size() - kEnd.size() - start->size();
+  std::string_view lines = behind < first_line ? "" : text.substr(first_line, behind - first_line);
   for (bool first = true; first || !lines.empty(); first = false) {
+    if (!lines.starts_with(*start)) {
+      return std::nullopt;
+    }
+    lines.remove_prefix(start->size());
     const std::size_t end = lines.find('\n');
     const auto digest = digest_from(lines.substr(0, kDigestDigits));
     if (end == std::string_view::npos || !digest || (end == kDigestDigits) != first) {

@@ -16,7 +16,8 @@
 ///     fedcba9876543210 arm_meshes/mesh_0.obj
 ///     -->
 ///
-/// of the description itself first, then of the files next to it.
+/// of the description itself first, then of the files next to it. Python files that begin with a
+/// text in three quotes have the same lines behind "# ".
 namespace tenon::structure {
 
 struct XmlNote {
@@ -24,6 +25,9 @@ struct XmlNote {
   std::size_t own_at = 0;                       ///< where its digits are in the text
   std::map<std::string, std::uint64_t> others;  ///< by name, relative to the folder of the text
 };
+
+/// Whether a text is of a kind that has such a note: XML or Python. No layer begins so.
+bool holds_xml_note(std::string_view text);
 
 /// `text` with the note behind it. Its own digest is that of the whole with zeros for its digits,
 /// which the caller puts in (`seal`).

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "tenon/base/text/source_number.h"
-#include "tenon/base/text/xml_text.h"
 #include "tenon/urdf/plain_urdf.h"
+#include "tenon/urdf/xml_writer.h"
 
 namespace tenon::urdf {
 
@@ -40,37 +40,6 @@ std::string text_of(Vec3d v) {
   drop_noise(v.v);
   return text_of({v[0], v[1], v[2]});
 }
-
-/// Elements in order, with attributes; indents by depth.
-class Writer {
- public:
-  using AttributeList = std::vector<std::pair<const char*, std::string>>;
-
-  void open(const char* name, const AttributeList& attributes = {}) {
-    start(name, attributes);
-    text_ += ">\n";
-    ++depth_;
-  }
-  void empty(const char* name, const AttributeList& attributes) {
-    start(name, attributes);
-    text_ += "/>\n";
-  }
-  void close(const char* name) {
-    --depth_;
-    text_ += std::string(2 * depth_, ' ') + "</" + name + ">\n";
-  }
-  std::string take() { return std::move(text_); }
-
- private:
-  void start(const char* name, const AttributeList& attributes) {
-    text_ += std::string(2 * depth_, ' ') + "<" + name;
-    for (const auto& [key, value] : attributes) {
-      text_ += std::string(" ") + key + "=\"" + xml_text(value) + "\"";
-    }
-  }
-  std::string text_ = "<?xml version=\"1.0\"?>\n";
-  std::size_t depth_ = 0;
-};
 
 const char* type_of(JointKind kind) {
   return kind == JointKind::Ball ? "spherical" : robot::joint_kind_name(kind).data();
@@ -213,7 +182,7 @@ class UrdfWriter {
 
   void write_optional(const char* name,
                       std::initializer_list<std::pair<const char*, std::optional<double>>> values) {
-    Writer::AttributeList attributes;
+    XmlWriter::AttributeList attributes;
     for (const auto& [key, value] : values) {
       if (value) {
         attributes.emplace_back(key, text_of({*value}));
@@ -260,7 +229,7 @@ class UrdfWriter {
   }
 
   const robot::RobotModel& model_;
-  Writer out_;
+  XmlWriter out_;
 };
 
 }  // namespace
