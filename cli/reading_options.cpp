@@ -24,6 +24,22 @@ void add_pose(const Command& verb, std::vector<std::string>& pose) {
       .repeatable();
 }
 
+void add_masks(const Command& verb, dynamics::Masks& masks) {
+  verb.add_option("--deactivate", masks.deactivate,
+                  "Skip a link with all that hangs on it, a joint, or what is below a prim; a "
+                  "path, a name or a regular expression")
+      .repeatable()
+      .value_name("PRIM");
+  verb.add_option("--bypass", masks.bypass,
+                  "Hold the sides of a joint as they stand at the start, or skip one link, "
+                  "whose joints hang on the link before it")
+      .repeatable()
+      .value_name("PRIM");
+  verb.add_option("--anchor", masks.anchor, "Fix a link to the world where it starts")
+      .repeatable()
+      .value_name("LINK");
+}
+
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments) {
   physics::Readings readings;
   for (const std::string& text : assignments) {

@@ -9,6 +9,7 @@
 #include "cli/verb.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/dynamics/masks.h"
 #include "tenon/physics/readings.h"
 #include "tenon/stage/stage.h"
 
@@ -18,6 +19,8 @@ namespace tenon::cli {
 void add_readings(const Command& verb, std::vector<std::string>& assignments);
 /// The option --pose JOINT=VALUE,... or NAME, which may be repeated.
 void add_pose(const Command& verb, std::vector<std::string>& pose);
+/// The options --deactivate, --bypass and --anchor, which may be repeated.
+void add_masks(const Command& verb, dynamics::Masks& masks);
 /// Errors: Invalid, with the names and values that there are.
 Result<physics::Readings> chosen_readings(const std::vector<std::string>& assignments);
 /// An asset whose physics is to be read with --reading.

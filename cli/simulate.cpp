@@ -46,6 +46,7 @@ Result<SimulateAssetOptions> simulation_options(const SimulateArguments& argumen
   TENON_TRY(options.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.pose = arguments.pose;
+  options.masks = arguments.masks;
   options.open = arguments.asset.open_options();
   options.duration = arguments.duration;
   options.time_step = arguments.time_step;
@@ -95,6 +96,7 @@ void SimulateArguments::add_to(const Command& verb) {
                   "Frames of logs and baked layers");
   add_readings(verb, readings);
   add_pose(verb, pose);
+  add_masks(verb, masks);
   verb.add_option("--set", asset.overrides,
                   "PATH.attr=value, or PATH.rel+=PRIM, for this run only; may be repeated")
       .repeatable();

@@ -19,6 +19,7 @@ struct SimulateArguments {
   AssetArguments asset;
   std::vector<std::string> readings;  ///< --reading NAME=VALUE
   std::vector<std::string> pose;      ///< --pose JOINT=VALUE,...
+  dynamics::Masks masks;              ///< --deactivate, --bypass, --anchor
   bool uninstance = false;         ///< of bake: instances with bodies inside become ordinary prims
   std::string engine;              ///< empty: what the selected variant names
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5

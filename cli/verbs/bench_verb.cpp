@@ -25,6 +25,7 @@ namespace {
 struct BenchArguments {
   AssetArguments asset;
   std::vector<std::string> readings;
+  dynamics::Masks masks;
   std::string engine;
   std::size_t environments = 1;
   std::size_t threads = 0;
@@ -40,6 +41,7 @@ Result<BenchOptions> options_of(const BenchArguments& arguments, Report& report)
   TENON_TRY(options.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.open = arguments.asset.open_options();
+  options.masks = arguments.masks;
   options.environments = arguments.environments;
   options.threads = arguments.threads;
   options.duration = arguments.duration;
@@ -152,6 +154,7 @@ void add_bench(const Command& parent, const Globals& globals, Chosen& chosen) {
       .value_name("NUMBER")
       .only_with({"--vary"});
   add_readings(verb, options->readings);
+  add_masks(verb, options->masks);
   verb.add_option("--set", options->asset.overrides,
                   "PATH.attr=value, for this run only; may be repeated")
       .repeatable();

@@ -26,6 +26,7 @@ struct CompareArguments {
   AssetArguments asset;
   std::vector<std::string> readings;
   std::vector<std::string> pose;
+  dynamics::Masks masks;
   std::vector<std::string> engines;
   std::optional<double> duration;
   double time_step = 0;
@@ -44,6 +45,7 @@ Result<CompareEnginesOptions> options_of(const CompareArguments& arguments, Repo
   TENON_TRY(options.first, engine_for("", arguments.asset.asset, report));
   TENON_TRY(options.readings, chosen_readings(arguments.readings));
   options.pose = arguments.pose;
+  options.masks = arguments.masks;
   options.open = arguments.asset.open_options();
   options.engines = arguments.engines;
   options.duration = arguments.duration;
@@ -158,6 +160,7 @@ void add_run_options(const Command& verb, CompareArguments& options) {
       .value_name("FILE");
   add_readings(verb, options.readings);
   add_pose(verb, options.pose);
+  add_masks(verb, options.masks);
   verb.add_option("--set", options.asset.overrides,
                   "PATH.attr=value, for this run only; may be repeated")
       .repeatable();

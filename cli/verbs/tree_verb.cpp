@@ -3,8 +3,8 @@
 //
 // Prints the prims depth first from a stack, on which each prim lies with the indentation of its
 // line. Children go onto it in reverse order, so that the first comes off first. A deep tree costs
-// no call stack. With --show physics it is the forest of bodies and joints
-// (cli/text/forest_text.h).
+// no call stack. With --show physics it is the forest of bodies and joints, with --as the same in
+// three forms (cli/text/forest_text.h).
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -31,6 +31,7 @@ struct TreeArguments {
   bool metadata = false;
   bool kinematic = false;
   std::string show;
+  std::string as;
   std::vector<std::string> assets;
 };
 
@@ -105,10 +106,17 @@ void print_tree(const stage::Stage& stage, const TreeArguments& options) {
   }
 }
 
-int show_forest(const stage::Stage& stage, Report& report) {
+int show_forest(const stage::Stage& stage, const TreeArguments& options, Report& report) {
   const scene::PhysicsScene scene =
       physics::read_physics(stage, read_options(), report.diagnostics);
   const scene::JointForest forest = scene::joint_forest(scene);
+  if (const auto form = answers::forest_form_named(options.as)) {
+    Json json = answers::forest_as_json(scene, forest, *form);
+    if (!report.json()) {
+      print_text(forest_as_text(json));
+    }
+    return report.finish(kOk, std::move(json));
+  }
   if (!report.json()) {
     print_text(forest_text(scene, forest));
   }
@@ -121,8 +129,8 @@ int run_tree(const Globals& globals, const TreeArguments& options) {
   if (!stage) {
     return report.fail(stage.error());
   }
-  if (options.kinematic) {
-    return show_forest(*stage, report);
+  if (options.kinematic || !options.as.empty()) {
+    return show_forest(*stage, options, report);
   }
   if (!report.json()) {
     print_tree(*stage, options);
@@ -156,12 +164,19 @@ void add_tree(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "and masses")
       .one_of({"physics"})
       .value_name("WHAT");
-  verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values")
+  verb.add_option("--as", options->as,
+                  "Links and joints, with bounds, drives, mimics and loops: articulation (link, "
+                  "joint, link), flat (two tables) or mujoco (bodies with joints of their own)")
+      .one_of(answers::forest_form_names())
+      .value_name("FORM")
       .not_with({"--show"});
-  verb.add_flag("-m,--metadata", options->metadata, "Also metadata").not_with({"--show"});
+  verb.add_flag("-a,--attributes", options->attributes, "Also attributes and their values")
+      .not_with({"--show", "--as"});
+  verb.add_flag("-m,--metadata", options->metadata, "Also metadata").not_with({"--show", "--as"});
   verb.footer(
       "Examples:\n  tenon tree hand.usda -a\n  tenon tree hand.usda --mask /hand/palm\n"
-      "  tenon tree hand.usda --show physics --physics physx");
+      "  tenon tree hand.usda --show physics --physics physx\n"
+      "  tenon tree hand.usda --as articulation");
   choose(verb, chosen, [&globals, options, physics] {
     untangle_physics(*options, physics);
     return each_asset(globals, "tree", options->assets,

@@ -34,6 +34,7 @@ struct ViewArguments {
   AssetArguments asset;
   std::vector<std::string> readings;
   std::vector<std::string> pose;
+  dynamics::Masks masks;
   std::string engine;
   double time_step = 0;
   std::string bind = "127.0.0.1";
@@ -71,6 +72,7 @@ int run_screenshot(const Globals& globals, const ViewArguments& arguments) {
   options.run.open = arguments.asset.open_options();
   options.run.readings = *std::move(readings);
   options.run.pose = arguments.pose;
+  options.run.masks = arguments.masks;
   options.triangles = arguments.triangles;
   SimulateArguments still;
   still.asset = arguments.asset;
@@ -116,6 +118,7 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments, Rep
   TENON_TRY(options.asset.engine, engine_for(arguments.engine, arguments.asset.asset, report));
   TENON_TRY(options.asset.readings, chosen_readings(arguments.readings));
   options.asset.pose = arguments.pose;
+  options.asset.masks = arguments.masks;
   options.asset.path = arguments.asset.asset;
   options.asset.open = arguments.asset.open_options();
   options.asset.time_step = arguments.time_step;
@@ -241,6 +244,7 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
   options->picture.add_to(verb);
   add_readings(verb, options->readings);
   add_pose(verb, options->pose);
+  add_masks(verb, options->masks);
   verb.add_option("--set", options->asset.overrides,
                   "PATH.attr=value, for this session only; may be repeated")
       .repeatable();

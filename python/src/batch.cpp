@@ -106,6 +106,7 @@ Result<std::unique_ptr<Batch>> Batch::make(const std::string& path, const OpenOp
   batch->scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*batch->stage, read_options(readings), batch->diagnostics));
   TENON_CHECK(check_drives(batch->diagnostics));
+  TENON_CHECK(dynamics::apply_masks(options.masks, *batch->scene, batch->diagnostics));
   batch->engine = choose_engine(options.engine, *batch->stage, batch->diagnostics);
   batch->engine_version = engine_info(batch->engine).version;
   TENON_CHECK(draw_all(*batch, options));

@@ -14,6 +14,7 @@
 
 #include "tenon/asset/many_environments/variation.h"
 #include "tenon/base/diagnostics.h"
+#include "tenon/dynamics/masks.h"
 #include "tenon/engines/environments.h"
 #include "tenon/open_stage.h"
 #include "tenon/physics/readings.h"
@@ -29,6 +30,7 @@ struct BatchOptions {
   std::size_t threads = 0;  ///< 0: as many as this process may use
   std::uint64_t seed = 0;   ///< of what variations draw
   std::vector<std::string> variations;
+  dynamics::Masks masks;  ///< links and joints that all environments skip or hold
   engines::SimulationOptions simulation{};
 };
 

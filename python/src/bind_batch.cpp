@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "batch.h"
@@ -436,8 +437,9 @@ BatchOptions batch_options(const std::string& engine, std::size_t count, std::si
                            std::uint64_t seed, double time_step,
                            const std::vector<std::string>& outputs,
                            const std::vector<std::string>& variations,
-                           const std::string& integrator) {
+                           const std::string& integrator, dynamics::Masks masks) {
   BatchOptions options;
+  options.masks = std::move(masks);
   options.engine = engine;
   options.count = count;
   options.threads = threads;
@@ -530,9 +532,15 @@ void bind_facts(nb::class_<Batch>& batch) {
 
 void bind_batch(nb::module_& module) {
   nb::class_<Batch> batch(module, "Batch", "What World stands on.");
+  nb::class_<dynamics::Masks>(module, "Masks", "Links and joints that a world skips or holds.")
+      .def(nb::new_([](std::vector<std::string> deactivate, std::vector<std::string> bypass,
+                       std::vector<std::string> anchor) {
+             return dynamics::Masks{std::move(deactivate), std::move(bypass), std::move(anchor)};
+           }),
+           "deactivate"_a, "bypass"_a, "anchor"_a);
   nb::class_<BatchOptions>(module, "BatchOptions", "How many environments are made, and of what.")
       .def(nb::new_(&batch_options), "engine"_a, "count"_a, "threads"_a, "seed"_a, "time_step"_a,
-           "outputs"_a, "variations"_a, "integrator"_a);
+           "outputs"_a, "variations"_a, "integrator"_a, "masks"_a);
   module.def("make_batch", &make_batch, "path"_a, "arguments"_a, "options"_a,
              nb::sig("def make_batch(path: str | os.PathLike[str], arguments: OpenArguments, "
                      "options: BatchOptions) -> Batch"));

@@ -93,6 +93,45 @@ class Assets(support.FilesTestCase):
             tenon.open(path, contents={path: "#usda 1.0\ndef"})
 
 
+class Masks(support.FilesTestCase):
+    """Parts that a world skips or holds."""
+
+    FINGER = "right_index_1_joint"
+
+    def told(self, world, rule):
+        return [finding.prim for finding in world.diagnostics if finding.rule == rule]
+
+    def test_a_link_is_fixed_to_the_world(self):
+        path = self.folder / "arm.usda"
+        path.write_text(FAST)
+        free, held = tenon.World(path), tenon.World(path, anchor=["arm"])
+        for world in (free, held):
+            world.step(100)
+        self.assertLess(free.body_poses[0, 0, 2], -0.01)
+        self.assertAlmostEqual(held.body_poses[0, 0, 2], 0, 9)
+        self.assertEqual(held.joint_names, [])
+        self.assertEqual(self.told(held, "mask.anchored"), ["/World/arm"])
+
+    def test_joints_are_skipped_and_held(self):
+        whole = tenon.World(support.HAND, **HAND)
+        held = tenon.World(support.HAND, bypass=[self.FINGER], **HAND)
+        [path] = self.told(held, "mask.bypassed")
+        self.assertIn(path, whole.joint_names)
+        self.assertNotIn(path, held.joint_names)
+        self.assertEqual(len(whole.body_names), len(held.body_names))
+        gone = tenon.World(support.HAND, deactivate=["right_thumb_1"], **HAND)
+        self.assertGreater(len(self.told(gone, "mask.deactivated")), 3)
+        gone.step(5)
+        self.assertTrue(np.isfinite(gone.body_poses).all())
+
+    def test_what_is_wrong(self):
+        with self.assertRaises(tenon.NotFoundError) as raised:
+            tenon.World(support.HAND, anchor=["right_thumb_11"], **HAND)
+        self.assertEqual(raised.exception.rule, "mask.unknown")
+        with self.assertRaises(TypeError):
+            tenon.World(support.HAND, anchor="right_thumb_1", **HAND)
+
+
 class Stepping(support.FilesTestCase):
     def test_a_box_falls_as_it_should(self):
         path = self.written("fall.usda", '''#usda 1.0

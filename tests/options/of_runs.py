@@ -29,7 +29,15 @@ def of_steps(choices):
     yield Row("--iterations", ("--iterations", "1"))
 
 
+def of_masks():
+    yield Row("--deactivate", ("--deactivate", "Hinge"))
+    yield Row("--deactivate", ("--deactivate", "/World/Slider"))
+    yield Row("--bypass", ("--bypass", "Hinge"))
+    yield Row("--anchor", ("--anchor", "Slider"))
+
+
 def of_starts():
+    yield from of_masks()
     yield Row("--reading", ("--reading", "unbound-friction=zero"))
     yield Row("--reading", ("--reading", "velocity-space=body", "--reading",
                             "point-instancers=skip", "--reading", "unbound-friction=one"))

@@ -8,7 +8,7 @@ import pathlib
 import re
 
 from of_assets import of_assets, of_every_verb, of_settings
-from of_runs import HINGE, of_commands, of_starts, of_steps
+from of_runs import HINGE, of_commands, of_masks, of_starts, of_steps
 from option_row import Row
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -165,6 +165,7 @@ def bench(choices):
     for what in (*(f"{name}={PARAMETERS[name]}" for name in parameters), *OTHERS, *FIELDS):
         yield Row("--vary", ("--vary", what), refused=REFUSED.get(what, {}))
     yield Row("--seed", ("--seed", "5"), with_=("--vary", "gravity=0.5..2"))
+    yield from of_masks()
     yield Row("--reading", ("--reading", "unbound-friction=zero"))
     yield Row("--set", ("--set", "/World/Slider.physics:velocity=(0.5, 0, 0)"))
 

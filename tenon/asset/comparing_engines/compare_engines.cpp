@@ -125,6 +125,7 @@ Result<ComparedEngine> open_for(const std::string& path, const CompareEnginesOpt
   compared.setup.options.time_step = options.time_step;
   compared.setup.scene = physics::read_physics(stage, read_options(options.readings), found);
   TENON_CHECK(start_at(stage, compared.setup.scene, options.pose));
+  TENON_CHECK(dynamics::apply_masks(options.masks, compared.setup.scene, found));
   compared.version = engine_info(wanted.engine).version;
   add_new(found, diagnostics);
   return compared;

@@ -33,6 +33,7 @@ struct CompareEnginesOptions {
   OpenOptions open;
   physics::Readings readings;
   std::vector<std::string> pose;  ///< where it starts (dynamics/posture_text.h); empty: as it is
+  dynamics::Masks masks;          ///< links and joints that the runs skip or hold
   /// "physx", or "physx:VARIANT" of the variant set "Physics"; without a variant, and where `open`
   /// selects none, each engine gets the one of its name, else "physics". Empty: all of this build,
   /// MuJoCo first. The first one is what the others are compared with.

@@ -166,8 +166,9 @@ Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& op
                                  Diagnostics& diagnostics) {
   const OpenOptions open = with_readings(options.open, options.readings);
   TENON_TRY(const stage::Stage stage, tenon::open(path, open, diagnostics));
-  const scene::PhysicsScene scene =
+  scene::PhysicsScene scene =
       physics::read_physics(stage, read_options(options.readings), diagnostics);
+  TENON_CHECK(dynamics::apply_masks(options.masks, scene, diagnostics));
   BenchedAsset benched;
   benched.engine = choose_engine(options.engine, stage, diagnostics);
   benched.engine_version = engine_info(benched.engine).version;

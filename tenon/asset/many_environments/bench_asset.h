@@ -12,6 +12,7 @@
 #include "tenon/asset/many_environments/variation.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/dynamics/masks.h"
 #include "tenon/engines/methods.h"
 #include "tenon/open_stage.h"
 #include "tenon/physics/readings.h"
@@ -22,7 +23,8 @@ namespace tenon {
 struct BenchOptions {
   OpenOptions open;
   physics::Readings readings;
-  std::string engine;  ///< empty: as choose_engine() decides
+  dynamics::Masks masks;  ///< links and joints that the runs skip or hold
+  std::string engine;     ///< empty: as choose_engine() decides
   std::size_t environments = 1;
   std::size_t threads = 0;         ///< 0: as many as this process may use
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5

@@ -117,6 +117,7 @@ Result<SimulatedAsset> read_scene(const std::string& path, const SimulateAssetOp
       physics::read_physics(*read.stage, read_options(options.readings), found));
   TENON_CHECK(hand_on(found, diagnostics));
   TENON_CHECK(start_at(*read.stage, *read.scene, options.pose));
+  TENON_CHECK(dynamics::apply_masks(options.masks, *read.scene, diagnostics));
   return read;
 }
 

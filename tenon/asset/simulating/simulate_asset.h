@@ -11,6 +11,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/function.h"
 #include "tenon/base/result.h"
+#include "tenon/dynamics/masks.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/layer/layer.h"
 #include "tenon/open_stage.h"
@@ -35,6 +36,7 @@ struct SimulateAssetOptions {
   OpenOptions open;
   physics::Readings readings;      ///< how the physics is read
   std::vector<std::string> pose;   ///< where it starts (dynamics/posture_text.h); empty: as it is
+  dynamics::Masks masks;           ///< links and joints that the run skips or holds
   std::string engine;              ///< empty: as choose_engine() decides (engine_choice.h)
   std::optional<double> duration;  ///< [s]; not given: what the stage's time range says, else 5
   double time_step = 0;            ///< [s]; 0: the asset's, else the engine's
@@ -68,8 +70,8 @@ struct SimulatedAsset {
 /// Opens, reads the physics and runs. A run that failed on its way is a result (see Run::failure)
 /// and a finding; one that could not begin is an Error: those of tenon::open and make_simulation,
 /// Invalid (sim.time-step, drive.negative-gain), Limit (sim.record-too-long), those of
-/// read_commands and of restore_state with their file. A run that was to end at rest and did not is
-/// a finding, too (sim.not-at-rest).
+/// read_commands and of restore_state with their file, those of apply_masks. A run that was to end
+/// at rest and did not is a finding, too (sim.not-at-rest).
 Result<SimulatedAsset> simulate_asset(const std::string& path, const SimulateAssetOptions& options,
                                       Diagnostics& diagnostics);
 

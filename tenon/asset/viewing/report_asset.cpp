@@ -169,6 +169,8 @@ Result<std::string> comparison(const std::string& path, const ReportOptions& opt
   CompareEnginesOptions compare;
   compare.open = options.run.open;
   compare.readings = options.run.readings;
+  compare.pose = options.run.pose;
+  compare.masks = options.run.masks;
   compare.engines = *options.compared;
   compare.duration = options.run.duration;
   compare.time_step = options.run.time_step;

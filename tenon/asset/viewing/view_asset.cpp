@@ -35,6 +35,7 @@ Result<SimulatedAsset> asset_at_start(const std::string& path, const SimulateAss
   read.scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(*read.stage, read_options(options.readings), diagnostics));
   TENON_CHECK(start_at(*read.stage, *read.scene, options.pose));
+  TENON_CHECK(dynamics::apply_masks(options.masks, *read.scene, diagnostics));
   return read;
 }
 

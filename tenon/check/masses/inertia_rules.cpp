@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Authored mass properties beside the solid that the colliders of the body are: where its centre
+// is, and along what it is long. A link is rarely filled evenly, so only what no filling explains
+// is told; docs/rules says how often that is in published robots.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
+#include "tenon/check/extents.h"
+#include "tenon/check/subject.h"
+#include "tenon/math/inertia.h"
+#include "tenon/scene/shapes/shape_mass.h"
+
+namespace tenon::check {
+namespace {
+
+using scene::Body;
+using scene::Index;
+
+constexpr double kOutside = 1;       ///< in half diagonals of the box that the solid amounts to
+constexpr double kCentersFar = 10;   ///< from there on mass.center-far tells it
+constexpr double kLongSolid = 3;     ///< middle to smallest moment of a solid that is long
+constexpr double kLongInertia = 2;   ///< the same of moments that are authored
+constexpr double kAskew = M_PI / 3;  ///< [rad]
+
+/// All enabled colliders of a body, as one solid of density 1 in the body's frame.
+scene::SolidIntegrals solid_of(const Subject& subject, Index body) {
+  scene::SolidIntegrals whole;
+  std::vector<scene::SolidIntegrals> parts;
+  for (const Index c : subject.colliders_of_body[body]) {
+    const scene::Collider& collider = subject.scene.colliders[c];
+    scene::SolidIntegrals part = scene::shape_integrals(collider.shape, subject.scene.meshes);
+    part.center = transform_point(collider.pose, part.center);
+    part.inertia = rotate_inertia(collider.pose.orientation, part.inertia);
+    whole.volume += part.volume;
+    whole.center = whole.center + part.center * part.volume;
+    parts.push_back(part);
+  }
+  if (!(whole.volume > 0)) {
+    return {};
+  }
+  whole.center = whole.center * (1 / whole.volume);
+  for (const scene::SolidIntegrals& part : parts) {
+    const Mat3d moved = shift_inertia(part.inertia, part.volume, part.center - whole.center);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        whole.inertia[i][j] += moved[i][j];
+      }
+    }
+  }
+  return whole;
+}
+
+/// Half of the diagonal of the box that has this mass and these moments, evenly filled [m].
+double half_diagonal_of(const Mat3d& inertia, double mass) {
+  const double trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
+  return std::sqrt(std::fmax(6 * trace / mass, 0)) / 2;
+}
+
+/// Along what something is long: the axis with the smallest moment, and how much smaller it is.
+struct LongAxis {
+  Vec3d axis;
+  double ratio = 1;  ///< middle to smallest moment
+};
+
+LongAxis long_axis(const Mat3d& inertia) {
+  const PrincipalInertia principal = principal_inertia(inertia);
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return principal.moments[a] < principal.moments[b];
+  });
+  Vec3d unit;
+  unit[order[0]] = 1;
+  const double least = principal.moments[order[0]];
+  return {rotate(principal.axes, unit), least > 0 ? principal.moments[order[1]] / least : 1};
+}
+
+bool authors_any(const stage::Prim& prim, std::initializer_list<const char*> names) {
+  return std::any_of(names.begin(), names.end(), [&prim](const char* name) {
+    return prim.attribute(name).has_authored_value();
+  });
+}
+
+/// Bodies that move and author one of the properties.
+template <class Visit>
+void each_author(const Subject& subject, std::initializer_list<const char*> names, Visit visit) {
+  for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
+    const Body& body = subject.scene.bodies[i];
+    const stage::Prim prim = subject.stage.prim(body.path);
+    if (!body.kinematic && !subject.colliders_of_body[i].empty() && authors_any(prim, names)) {
+      visit(i, body, prim);
+    }
+  }
+}
+
+}  // namespace
+
+// S-44
+void check_outside_center(const Subject& subject, Reporter& report) {
+  each_author(subject, {"physics:centerOfMass"}, [&](Index i, const Body& body, const auto& prim) {
+    const scene::SolidIntegrals solid = solid_of(subject, i);
+    if (!(solid.volume > 0)) {
+      return;
+    }
+    const double reach = half_diagonal_of(solid.inertia, solid.volume);
+    const double distance = length(body.center_of_mass - solid.center);
+    const Extent extent = extent_of(subject, i);
+    const bool far =
+        length(body.center_of_mass - extent.middle()) > kCentersFar * extent.half_diagonal();
+    if (distance > (1 + kOutside) * reach && !far) {
+      report.at(prim, "physics:centerOfMass",
+                "the centre of mass is " + digits(distance) +
+                    " m away from the middle of the colliders, which reach about " + digits(reach) +
+                    " m: it lies outside of the body",
+                "author physics:centerOfMass in the body's own space, or add the colliders that "
+                "are missing");
+    }
+  });
+}
+
+// S-45, S-46
+void check_askew_axes(const Subject& subject, Reporter& report) {
+  each_author(subject, {"physics:diagonalInertia", "newton:inertia"},
+              [&](Index i, const Body& body, const auto& prim) {
+                const LongAxis of_mass = long_axis(body.inertia);
+                if (of_mass.ratio < kLongInertia) {
+                  return;
+                }
+                const scene::SolidIntegrals solid = solid_of(subject, i);
+                const LongAxis of_solid = long_axis(solid.inertia);
+                const double angle =
+                    std::acos(std::clamp(std::fabs(dot(of_mass.axis, of_solid.axis)), 0.0, 1.0));
+                if (solid.volume > 0 && of_solid.ratio > kLongSolid && angle > kAskew) {
+                  report.at(prim, "physics:principalAxes",
+                            "the mass is long along an axis that is " + digits(angle * 180 / M_PI) +
+                                " degrees off the one along which the colliders are long",
+                            "author physics:principalAxes as the rotation from the axes of the "
+                            "moments to those of the body, or put the moments in that order");
+                }
+              });
+}
+
+}  // namespace tenon::check
