@@ -235,6 +235,18 @@ class Bench:
         peaks = [max((run.peak for run in runs[side]), default=0) for side in (0, 1)]
         self.add_memory_row(name, *peaks)
 
+    def measure_pairs(self, name, tenon, file):
+        """Whole processes that look for pairs of bodies that touch; with all threads in MT."""
+        command = [tenon, "pairs", file, "--json", "--sample",
+                   "10" if self.arguments.smoke else "10000"]
+        clock = self.arguments.clock
+        one = [Run(command, self.cpu) for _ in range(self.arguments.rounds)]
+        every = [Run(command, None, None) for _ in one[:3] if self.arguments.threads]
+        self.add_row(name, "process", statistics.median(getattr(run, clock) for run in one), None,
+                     (statistics.median(run.wall for run in every) if every else None, None),
+                     "10,000 postures")
+        self.add_memory_row(name, max(run.peak for run in one), 0)
+
     def measure_million(self, name, tenon, note):
         """Whole processes that open many prims with two attributes each."""
         file = inputs.make_many_prims(self.program("complexity"), self.scene("million"),
@@ -338,6 +350,8 @@ def process_tasks(bench):
     for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
         if not os.path.exists(file):
             continue
+        if os.path.exists(bench.program("step_mujoco")):  # whose shapes pairs are of
+            yield f"pairs_{name}", bench.measure_pairs, tenon, file
         yield (f"info_{name}", bench.measure_processes, [tenon, "--json", "info", file],
                [*PEER, "asset", file], "open only, " + imports)
         if os.path.exists(DUMP_SCRIPT):

@@ -148,6 +148,7 @@ constexpr const char* kAddFooter =
     "  tenon add s.usda /World/part=mesh,body,collider --file part.stl --approximation convexHull\n"
     "  tenon add s.usda /World/hinge=revolute --body1 /World/box --at 0,0,1.05 --axis Z\n"
     "  tenon add s.usda /World/hinge=drive --stiffness 10 --damping 1\n"
+    "  tenon add s.usda '.*_collision=collider' --match --approximation convexHull\n"
     "  tenon add s.usda /World/sun=distant-light --intensity 3000 --set inputs:exposure=1\n\n";
 
 struct NewArguments {
@@ -219,6 +220,9 @@ void add_add(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("what", options->request.what,
                   "PATH=KIND, or PATH=KIND,KIND for a prim and what is put on it")
       .required();
+  verb.add_flag("--match", options->request.match,
+                "PATH is a name, a path or a regular expression for the whole of either: put the "
+                "kinds on all prims that it means and that lack them");
   add_kind_options(verb, *options, true);
   verb.add_option("--set", options->request.properties, "NAME=VALUE: another property of it")
       .repeatable();

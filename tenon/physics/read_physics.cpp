@@ -13,6 +13,7 @@
 
 #include "tenon/approximate/mesh_approximator.h"
 #include "tenon/physics/bodies/bodies_with_mass.h"
+#include "tenon/physics/contents/read_approximated.h"
 #include "tenon/physics/contents/read_outline.h"
 #include "tenon/physics/joints/joint_checks.h"
 #include "tenon/physics/read_state.h"
@@ -77,11 +78,12 @@ PhysicsScene read_walked(ReadState& state) {
 
 PhysicsScene read_stage(const stage::Stage& stage, const ReadOptions& options,
                         StaticMeshes static_meshes, Diagnostics& diagnostics,
-                        Provenance* provenance) {
+                        Provenance* provenance, const AskedApproximation* asked = nullptr) {
   Diagnostics found;
   ReadState state = begin(stage, options, found);
   state.provenance = provenance;
   state.static_meshes = static_meshes;
+  state.asked = asked;
   const MeshTools own = options.mesh_tools ? MeshTools() : approximate::mesh_tools({});
   state.mesh_tools = options.mesh_tools ? &*options.mesh_tools : &own;
   state.mesh_cache = options.mesh_cache;
@@ -134,6 +136,11 @@ PhysicsScene read_physics(const stage::Stage& stage, const ReadOptions& options,
 PhysicsScene read_outline(const stage::Stage& stage, const ReadOptions& options,
                           Diagnostics& diagnostics) {
   return read_stage(stage, options, StaticMeshes::Skipped, diagnostics, nullptr);
+}
+
+PhysicsScene read_approximated(const stage::Stage& stage, const ReadOptions& options,
+                               const AskedApproximation& asked, Diagnostics& diagnostics) {
+  return read_stage(stage, options, StaticMeshes::Read, diagnostics, nullptr, &asked);
 }
 
 }  // namespace tenon::physics

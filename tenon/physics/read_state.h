@@ -13,6 +13,7 @@
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/colliders/mesh_cache.h"
 #include "tenon/physics/colliders/shared_meshes.h"
+#include "tenon/physics/contents/read_approximated.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/physics/provenance.h"
 #include "tenon/physics/readings.h"
@@ -51,6 +52,7 @@ struct ReadState {
   Provenance* provenance = nullptr;  ///< filled where not null
   MeshCache* mesh_cache = nullptr;
   StaticMeshes static_meshes = StaticMeshes::Read;
+  const AskedApproximation* asked = nullptr;  ///< in the place of what meshes ask for
   SharedMeshes shared_meshes{};
   mutable stage::TargetMemo target_memo{};
   Walk walk{};

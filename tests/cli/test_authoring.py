@@ -504,6 +504,22 @@ def Xform "r" (
         self.do("remove", self.scene, "/World/x")
         self.assertEqual(self.files(), before)
 
+    def test_one_wish_for_all_prims_that_match(self):
+        scene = self.laid_out()
+        self.do("add", scene, "/World/c_col=cube", "--at", "9,0,0")
+        self.do("add", scene, "/World/d_col=xform")
+        self.do("add", scene, "/World/d_col/e_col=sphere")
+        self.do("add", scene, ".*_col=collider", "--match")
+        colliders = json.loads(self.do("physics", scene, "--json").stdout)["colliders"]
+        names = sorted(collider["path"].rsplit("/", 1)[1] for collider in colliders)
+        self.assertEqual(names, ["a", "b", "c_col", "e_col"])
+        self.do("add", scene, "m=collider", "--match", "--approximation", "convexHull")
+        self.assertEqual(scene.read_text(encoding="utf-8").count("PhysicsMeshCollisionAPI"), 1)
+        self.do("add", scene, "[ab]=mass", "--match", "--mass", "2")
+        for rule, words in (("edit.no-prim", ".*_col=collider"), ("edit.no-prim", "x.*=mass"),
+                            ("edit.bad-argument", "a=cube"), ("name.bad-pattern", "((=mass")):
+            self.refused(rule, "add", scene, words, "--match")
+
     def test_inside_an_instance_nothing_goes(self):
         self.scene.write_text('#usda 1.0\ndef "W"\n{\n    def "i" (\n        instanceable = true\n'
                               '        references = @./part.usda@\n    )\n    {\n    }\n}\n',

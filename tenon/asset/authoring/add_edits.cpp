@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tenon/asset/authoring/joint_placement.h"
+#include "tenon/asset/authoring/matched_prims.h"
 #include "tenon/asset/authoring/mesh_file.h"
 #include "tenon/asset/authoring/requested_kinds.h"
 #include "tenon/asset/typed_edits.h"
@@ -145,7 +146,9 @@ class Addition {
       TENON_TRY(const MeshFileRequest mesh, mesh_request(request_, wanted_.prim));
       TENON_TRY(edit.mesh, read_mesh_file(mesh, stage(), options_.open, diagnostics_));
     } else if (const std::string* file = given("file")) {
-      edit.arc = AssetArc{kind.name == "payload", bytes::absolute_file_path(*file), {}};
+      edit.arc =
+          AssetArc{kind.name == "payload" ? AssetArc::Kind::Payload : AssetArc::Kind::Reference,
+                   bytes::absolute_file_path(*file)};
       if (const std::string* prim = given("prim")) {
         TENON_TRY(edit.arc->prim, Path::parse(*prim));
       }
@@ -423,6 +426,10 @@ class Addition {
 
 Result<std::vector<AssetEdit>> add_edits(const Stages& stages, const AuthoringRequest& request,
                                          const EditOptions& options, Diagnostics& diagnostics) {
+  if (request.match) {
+    TENON_TRY(const AuthoringRequest matched, matched_request(stages, request));
+    return add_edits(stages, matched, options, diagnostics);
+  }
   std::vector<RequestedKinds> requested;
   for (const std::string& text : request.what) {
     TENON_TRY(RequestedKinds one, read_requested(text, true));

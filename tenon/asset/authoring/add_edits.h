@@ -18,6 +18,7 @@ struct AuthoringRequest {
   std::vector<std::string> what;               ///< PATH=KIND or PATH=KIND,KIND,...
   std::map<std::string, std::string> options;  ///< of authoring_options(), without dashes
   std::vector<std::string> properties;         ///< NAME=VALUE, of all that is added
+  bool match = false;  ///< PATH of what is added is a pattern (matched_prims.h)
 };
 
 using Stages = std::vector<std::shared_ptr<const stage::Stage>>;

@@ -24,7 +24,14 @@
 namespace tenon::physics {
 namespace {
 
+std::optional<Approximation> asked_instead(const ReadState& state, const ShapeSource& source) {
+  return state.asked != nullptr ? (*state.asked)(source.found.prim) : std::nullopt;
+}
+
 Approximation approximation_of(const ReadState& state, const ShapeSource& source) {
+  if (const auto asked = asked_instead(state, source)) {
+    return *asked;
+  }
   const PhysicsPrim& found = source.found;
   const bool applied = found.roles.has(Api::MeshCollision) ||
                        found.roles.has(Api::NewtonMeshCollision) ||
@@ -355,7 +362,9 @@ std::vector<Index> decompose(ReadState& state, const ShapeSource& source,
 std::optional<ShapeReading> read_ellipsoid(const ReadState& state, const ShapeSource& source) {
   const auto axes = source.found.prim.attribute(state.tokens.ellipsoid).get_as<Vec3d>();
   const auto kind = source.found.prim.attribute(state.tokens.approximation).get_as<Token>();
-  if (!axes || source.parts.sheared || !kind || !(*kind == "convexHull")) {
+  const auto asked = asked_instead(state, source);
+  const bool is_hull = asked ? *asked == Approximation::ConvexHull : kind && *kind == "convexHull";
+  if (!axes || source.parts.sheared || !is_hull) {
     return std::nullopt;
   }
   ShapeReading reading;

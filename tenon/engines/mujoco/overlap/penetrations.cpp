@@ -10,6 +10,7 @@
 #include "tenon/engines/mujoco/overlap/penetrations.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "tenon/engines/mujoco/build/build.h"
@@ -141,6 +142,46 @@ Result<DataPtr> make_data(mjModel* model) {
   return DataPtr(data);
 }
 
+/// A point of the frame of a geom in the world.
+Vec3d placed_point(const mjData& data, int geom, const float* point) {
+  Vec3d placed = read_vector(data.geom_xpos + static_cast<std::ptrdiff_t>(3) * geom);
+  const double* rows = data.geom_xmat + static_cast<std::ptrdiff_t>(9) * geom;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      placed[i] += rows[3 * i + j] * static_cast<double>(point[j]);
+    }
+  }
+  return placed;
+}
+
+/// The hull that MuJoCo made of the points of a mesh: its graph is the counts of corners and faces,
+/// a place in the list of neighbours for each corner, the corners' numbers among the points, that
+/// list, and three points for each face. In the world.
+scene::TriangleMesh hull_surface(const mjModel& model, const mjData& data, int geom) {
+  scene::TriangleMesh surface;
+  const int mesh = model.geom_dataid[geom];
+  const int graph_at = model.mesh_graphadr[mesh];
+  const float* points = model.mesh_vert + static_cast<std::ptrdiff_t>(3) * model.mesh_vertadr[mesh];
+  if (graph_at < 0) {
+    return surface;
+  }
+  const int* graph = model.mesh_graph + graph_at;
+  const int corners = graph[0];
+  const int faces = graph[1];
+  std::map<int, int> number;
+  for (int i = 0; i < corners; ++i) {
+    const int point = graph[2 + corners + i];
+    number[point] = i;
+    surface.points.push_back(
+        placed_point(data, geom, points + static_cast<std::ptrdiff_t>(3) * point));
+  }
+  const int* face = graph + 2 + 3 * corners + 3 * faces;
+  for (int i = 0; i < faces; ++i, face += 3) {
+    surface.triangles.push_back({{number[face[0]], number[face[1]], number[face[2]]}});
+  }
+  return surface;
+}
+
 /// Each pair once, as deep as its deepest contact.
 void keep_deepest(std::vector<Penetration>& found) {
   std::sort(found.begin(), found.end(), [](const Penetration& x, const Penetration& y) {
@@ -198,14 +239,19 @@ Result<Penetrations> Penetrations::another() const {
   return Penetrations(std::move(parts));
 }
 
+void Penetrations::place(const std::vector<Pose>& poses) {
+  double* qpos = parts_->data->qpos;
+  for (std::size_t b = 0; b < parts_->free_qpos.size(); ++b) {
+    const Pose pose = poses[b] * parts_->engine_frames[b];
+    write_vector(qpos + parts_->free_qpos[b], pose.position);
+    write_quaternion(qpos + parts_->free_qpos[b] + 3, pose.orientation);
+  }
+}
+
 Result<std::vector<Penetration>> Penetrations::at(const std::vector<Pose>& poses) {
   const mjModel* m = parts_->model.get();
   mjData* d = parts_->data.get();
-  for (std::size_t b = 0; b < parts_->free_qpos.size(); ++b) {
-    const Pose pose = poses[b] * parts_->engine_frames[b];
-    write_vector(d->qpos + parts_->free_qpos[b], pose.position);
-    write_quaternion(d->qpos + parts_->free_qpos[b] + 3, pose.orientation);
-  }
+  place(poses);
   d->warning[mjWARN_CONTACTFULL].number = 0;
   const Result<void> looked = guarded_where_open([&] {
     mj_kinematics(m, d);
@@ -232,6 +278,44 @@ Result<std::vector<Penetration>> Penetrations::at(const std::vector<Pose>& poses
   }
   keep_deepest(found);
   return found;
+}
+
+std::vector<UsedShape> Penetrations::used_shapes(const PhysicsScene& scene) {
+  const mjModel& m = *parts_->model;
+  mjData& d = *parts_->data;
+  std::vector<Pose> start;
+  for (const scene::Body& body : scene.bodies) {
+    start.push_back(body.pose);
+  }
+  std::vector<UsedShape> used(scene.colliders.size());
+  place(start);
+  mj_kinematics(&m, &d);
+  for (int geom = 0; geom < m.ngeom; ++geom) {
+    const int collider = parts_->collider_of_geom[static_cast<std::size_t>(geom)];
+    if (collider < 0) {
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(collider);
+    if (m.geom_type[geom] != mjGEOM_MESH) {
+      used[index].kind = UsedShape::Kind::Shape;
+      continue;
+    }
+    scene::TriangleMesh surface = hull_surface(m, d, geom);
+    const Pose to_collider = inverse(world_pose(scene, scene.colliders[index]));
+    for (Vec3d& point : surface.points) {
+      point = transform_point(to_collider, point);
+    }
+    used[index].kind = UsedShape::Kind::Hulls;
+    used[index].surfaces.push_back(std::move(surface));
+  }
+  for (const NotMapped& note : parts_->not_mapped) {
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (scene.colliders[i].path == note.prim) {
+        used[i].notes.push_back(note.why);
+      }
+    }
+  }
+  return used;
 }
 
 const std::vector<NotMapped>& Penetrations::not_mapped() const { return parts_->not_mapped; }

@@ -7,6 +7,7 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
+#include "tenon/engines/shapes/used_shape.h"
 #include "tenon/engines/simulation.h"
 #include "tenon/math/transform.h"
 #include "tenon/scene/physics_scene.h"
@@ -47,12 +48,17 @@ class Penetrations {
   /// MuJoCo has no room for the contacts, Invalid with its words.
   Result<std::vector<Penetration>> at(const std::vector<Pose>& poses);
 
+  /// What MuJoCo made of the colliders of the scene that this was made of, read back from it
+  /// (collider_count); None: of those that take part in nothing.
+  std::vector<UsedShape> used_shapes(const scene::PhysicsScene& scene);
+
   /// Shapes that are not exactly those of the scene.
   const std::vector<NotMapped>& not_mapped() const;
 
  private:
   struct Parts;
   explicit Penetrations(std::unique_ptr<Parts> parts);
+  void place(const std::vector<Pose>& poses);
   std::unique_ptr<Parts> parts_;
 };
 
