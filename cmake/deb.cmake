@@ -31,7 +31,7 @@ endif()
 # each is recommended.
 find_program(TENON_DPKG_QUERY dpkg-query)
 mark_as_advanced(TENON_DPKG_QUERY)
-foreach(target IN ITEMS tenon_assimp tenon_meshoptimizer)
+foreach(target IN ITEMS tenon_assimp tenon_meshoptimizer tenon_nlopt)
   get_target_property(definitions ${target} INTERFACE_COMPILE_DEFINITIONS)
   if(TENON_DPKG_QUERY AND "${definitions}" MATCHES "SONAME=\"([^\"]+)\"")
     execute_process(COMMAND ${TENON_DPKG_QUERY} -S */${CMAKE_MATCH_1} OUTPUT_VARIABLE owner

@@ -77,6 +77,16 @@ else()
   target_compile_definitions(tenon_zlib INTERFACE TENON_WITH_ZLIB=0)
 endif()
 
+# Opened at run time, when gains are searched (tenon/tuning/optimizer.cpp); nothing of it is needed
+# to compile. Here for its licence and for the packages that are made.
+find_library(TENON_NLOPT_LIBRARY NAMES libnlopt.so.0 libnlopt.so.1)
+mark_as_advanced(TENON_NLOPT_LIBRARY)
+add_library(tenon_nlopt INTERFACE)
+if(TENON_NLOPT_LIBRARY)
+  get_filename_component(tenon_nlopt_name ${TENON_NLOPT_LIBRARY} NAME)
+  target_compile_definitions(tenon_nlopt INTERFACE TENON_NLOPT_SONAME="${tenon_nlopt_name}")
+endif()
+
 # Reads tenon.toml; headers alone. Ubuntu 22.04 has no package of it.
 find_path(TENON_TOML_INCLUDE_DIR toml++/toml.h)
 add_library(tenon_toml INTERFACE)

@@ -71,6 +71,7 @@ need_toml() {
 
 # Headers of the Python that the package is built for (tools/make_wheel.sh), 3.11 or later.
 need_for_wheel() {
+  need_nlopt
   local python
   for python in python3 python3.14 python3.13 python3.12 python3.11; do
     if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
@@ -144,7 +145,11 @@ chromium_is_there() {
 
 need_for_docs() { need_tool doxygen doxygen --version; }
 
+# Searches gains (`tenon tune --search`); the wheel has it in it, the Debian package recommends it.
+need_nlopt() { need_package libnlopt0; }
+
 need_for_deb() {
+  need_nlopt
   need_tool dpkg-dev dpkg-shlibdeps --version
   need_tool file file --version # CPack asks it what programs are
 }

@@ -27,7 +27,7 @@ PACKAGES = {
     "lz4": "liblz4-dev", "qhull": "libqhull-dev", "pugixml": "libpugixml-dev",
     "toml++": "libtomlplusplus-dev",
     "boost": "libboost-dev", "meshoptimizer": "libmeshoptimizer-dev", "zlib": "zlib1g-dev",
-    "assimp": "libassimp-dev", "libstdc++": "libstdc++6"}
+    "assimp": "libassimp-dev", "nlopt": "libnlopt0", "libstdc++": "libstdc++6"}
 
 
 def version_of_tenon():

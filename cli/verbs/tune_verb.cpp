@@ -40,6 +40,12 @@ struct TuneArguments {
   std::size_t seed = 1;
   bool adversarial = false;
   std::string output;
+  bool search = false;
+  std::string overshoot = "1";
+  double settle = 0.2;  ///< [s]
+  std::vector<std::string> payloads;
+  std::string at;
+  std::size_t poses = 0;
 };
 
 Error conflict(const std::string& message, const std::string& fix) {
@@ -48,15 +54,24 @@ Error conflict(const std::string& message, const std::string& fix) {
 
 Result<void> check_tune_words(const TuneArguments& arguments) {
   const bool wished = !arguments.frequency.empty() || arguments.damping_ratio.has_value() ||
-                      !arguments.gains.empty();
+                      !arguments.gains.empty() || arguments.search;
   if (arguments.save && !wished) {
-    return conflict("there is nothing to save", "give --frequency and --damping-ratio, or --gains");
+    return conflict("there is nothing to save",
+                    "give --frequency and --damping-ratio, --gains, or --search");
+  }
+  if (arguments.payloads.empty() != arguments.at.empty()) {
+    return conflict("a payload needs a place, and a place a payload",
+                    "give both --payload and --at");
   }
   const AssetArguments& asset = arguments.run.asset;
   if (arguments.save && (!asset.overrides.empty() || !asset.mask.empty() || !asset.load.empty() ||
                          !asset.muted.empty())) {
     return conflict("--save writes the files of the asset, not a selection of it",
                     "leave --set, --mask, --load and --mute-layer out");
+  }
+  if (arguments.save && !arguments.run.masks.empty()) {
+    return conflict("--save writes gains of the whole asset, and a part of it is masked",
+                    "leave --deactivate, --bypass and --anchor out");
   }
   if (arguments.test.empty() && !arguments.sequence.empty()) {
     return conflict("--sequence says how a test runs, and there is none", "give --test, too");
@@ -73,6 +88,7 @@ Result<TuneOptions> tune_options(const TuneArguments& arguments, Report& report)
   }
   TENON_TRY(options.readings, chosen_readings(arguments.run.readings));
   options.open = arguments.run.asset.open_options();
+  options.masks = arguments.run.masks;
   options.time_step = arguments.run.time_step;
   options.joints = arguments.joints;
   options.gains_file = arguments.gains;
@@ -81,6 +97,15 @@ Result<TuneOptions> tune_options(const TuneArguments& arguments, Report& report)
   options.wish.damping_ratio = arguments.damping_ratio;
   if (!arguments.frequency.empty()) {
     TENON_TRY(options.wish.frequency, frequency_named(arguments.frequency));
+  }
+  if (arguments.search) {
+    SearchRequest& search = options.search.emplace();
+    TENON_TRY(search.goal.overshoot, overshoot_named(arguments.overshoot));
+    TENON_TRY(search.payloads, payloads_named(arguments.payloads));
+    search.goal.settling = arguments.settle;
+    search.at = arguments.at;
+    search.poses = arguments.poses;
+    search.seed = arguments.seed;
   }
   options.test = tuning::test_named(arguments.test);
   options.test_options.duration = arguments.run.duration;
@@ -98,6 +123,7 @@ int code_of(const TunedAsset& tuned) {
   return tuned.interrupted()                                       ? kInterrupted
          : tuned.has(Verdict::Unstable)                            ? kUnstable
          : tuned.has(Verdict::Fail) || tuned.has(Verdict::Blocked) ? kNo
+         : tuned.search && !tuned.search->all_met()                ? kNo
                                                                    : kOk;
 }
 
@@ -188,11 +214,16 @@ constexpr const char* kTuneFooter =
     "settling), sine (lag, gain, errors), stress (random targets, the largest stable ones), steps "
     "(the step with other time steps). Joints are tested one after the other; each --sequence is a "
     "group that moves together.\n\n"
-    "Exit codes: 0, 1 a test failed or was blocked, 2 bad input, 3 unstable.\n\n"
+    "A search (NLopt) tries gains on the engines: the softest with which a step of each joint, the "
+    "others held, meets the goal with every payload and at every pose. Gains that miss it are not "
+    "saved.\n\n"
+    "Exit codes: 0, 1 a test failed or was blocked, or a goal is missed, 2 bad input, 3 "
+    "unstable, 4 without NLopt.\n\n"
     "Examples:\n"
     "  tenon tune hand.usda                                 the drives as they are\n"
     "  tenon tune hand.usda --frequency 10 --damping-ratio 1          what that would change\n"
     "  tenon tune hand.usda --frequency 10 --damping-ratio 1 --save   and change it\n"
+    "  tenon tune hand.usda --search --overshoot 1% --settle 0.2      gains for a goal\n"
     "  tenon tune hand.usda --test step --period 0.5\n"
     "  tenon tune hand.usda --test snap --joints 'thumb.*' -o snap.html";
 
@@ -232,17 +263,44 @@ void add_test_options(const Command& verb, TuneArguments& options) {
                   "Of steps and sines in per cent of the range; without it 10, of the random walk "
                   "of stress in each step 1")
       .value_name("PERCENT")
-      .only_with({"--test=step", "--test=sine", "--test=stress", "--test=steps"});
+      .only_with({"--test=step", "--test=sine", "--test=stress", "--test=steps", "--search"});
   verb.add_option("--duration", options.run.duration, {1e-3, 1e5, false, false, "s"},
                   "Of sine and stress; without it 4 periods, 10 s")
       .value_name("SECONDS")
       .only_with({"--test=sine", "--test=stress"});
-  verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""}, "Of stress")
+  verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""},
+                  "Of stress, and of the poses of a search")
       .value_name("NUMBER")
-      .only_with({"--test=stress"});
+      .only_with({"--test=stress", "--poses"});
   verb.add_flag("--adversarial", options.adversarial,
                 "Stress: every 10 steps each joint to a random limit")
       .only_with({"--test=stress"});
+}
+
+void add_search_options(const Command& verb, TuneArguments& options) {
+  verb.add_flag("--search", options.search,
+                "Search the softest gains with which steps meet --overshoot and --settle")
+      .not_with({"--frequency", "--damping-ratio", "--gains"});
+  verb.add_option("--overshoot", options.overshoot,
+                  "Of a search: at most so much of the step, such as 5%; without it 1 %")
+      .value_name("PERCENT")
+      .only_with({"--search"});
+  verb.add_option("--settle", options.settle, {1e-3, 100, false, false, "s"},
+                  "Of a search: within 2 % of the step after this; without it 0.2 s")
+      .value_name("SECONDS")
+      .only_with({"--search"});
+  verb.add_option("--payload", options.payloads,
+                  "Of a search: with each of these point masses [kg] at --at, such as 0,0.5")
+      .split_at_commas()
+      .value_name("MASSES")
+      .only_with({"--search"});
+  verb.add_option("--at", options.at, "Where payloads are: a link, or a prim below one")
+      .value_name("PRIM")
+      .only_with({"--search"});
+  verb.add_option("--poses", options.poses, {0, 63, false, true, ""},
+                  "Of a search: at so many drawn poses, too")
+      .value_name("COUNT")
+      .only_with({"--search"});
 }
 
 }  // namespace
@@ -261,10 +319,12 @@ void add_tune(const Command& parent, const Globals& globals, Chosen& chosen) {
       .one_of(names)
       .value_name("NAME");
   add_test_options(verb, *options);
+  add_search_options(verb, *options);
   verb.add_option("--dt", options->run.time_step, {1e-9, 10, false, false, "s"},
                   "Time step; without it the asset's, else 0.002 s")
       .value_name("SECONDS");
   add_readings(verb, options->run.readings);
+  add_masks(verb, options->run.masks);
   verb.add_option("--set", options->run.asset.overrides,
                   "PATH.attr=value, for this run only; may be repeated")
       .repeatable();

@@ -16,6 +16,7 @@
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/base/text/quoted_text.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/dynamics/start_from.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::dynamics {
@@ -173,12 +174,8 @@ Result<Posture> posture_from_texts(const Multibody& multibody,
   return multibody.moved(start, std::move(joints));
 }
 
-Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>& texts) {
-  if (texts.empty()) {
-    return {};
-  }
+void start_from(scene::PhysicsScene& scene, const Posture& posture) {
   const Multibody multibody(scene);
-  TENON_TRY(const Posture posture, posture_from_texts(multibody, texts));
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     scene.bodies[b].pose = posture.bodies[b];
   }
@@ -189,6 +186,13 @@ Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>
     if (is_single && (joint.initial_position || std::abs(posture.joints[j][0]) > M_PI)) {
       joint.initial_position = posture.joints[j][0];
     }
+  }
+}
+
+Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>& texts) {
+  if (!texts.empty()) {
+    TENON_TRY(const Posture posture, posture_from_texts(Multibody(scene), texts));
+    start_from(scene, posture);
   }
   return {};
 }

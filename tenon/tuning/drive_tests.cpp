@@ -239,7 +239,11 @@ Result<DriveTests> test_drives(const scene::PhysicsScene& scene, const std::vect
     if (run.interrupted()) {
       break;
     }
+    const std::size_t before = tests.results.size();
     TENON_CHECK(kTests[static_cast<std::size_t>(options.kind)].run(run, rig, group, tests));
+    for (std::size_t i = before; options.found && i < tests.results.size(); ++i) {
+      options.found(tests.results[i]);
+    }
   }
   add_skipped(scene, rows, options, tests);
   std::stable_sort(tests.results.begin(), tests.results.end(),

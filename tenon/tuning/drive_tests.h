@@ -49,6 +49,8 @@ inline constexpr double kReached = 0.01;        ///< [rad or m]
 inline constexpr double kUnstableSpeed = 100;   ///< [rad/s or m/s]
 inline constexpr double kOvershootGoal = 0.01;  ///< of a step
 
+struct DriveTestResult;
+
 struct DriveTestOptions {
   TestKind kind = TestKind::Snap;
   /// Rows that run together, one group after the other. Empty: each for itself; of Stress all.
@@ -60,6 +62,7 @@ struct DriveTestOptions {
   std::uint64_t seed = 1;           ///< of Stress
   bool adversarial = false;         ///< of Stress: to a random limit every 10 steps
   Function<void(const std::string& what)> next_part;
+  Function<void(const DriveTestResult& result)> found;  ///< called with each as soon as it is there
   /// Called regularly with the time simulated so far and that which the test takes at most [s];
   /// false stops it.
   Function<bool(double seconds, double duration)> go_on;
@@ -82,6 +85,30 @@ struct StepsRow {
   double gap = 0;  ///< largest distance to the response at the finest step, by the size of the step
 };
 
+/// What the second-order form does not have, and may keep a step from it.
+enum class StepCause : std::uint8_t {
+  TimeStep,       ///< the step is coarse for the frequency
+  SelfCollision,  ///< the robot touches itself
+  VelocityLimit,
+  JointLimits,  ///< a joint starts beyond one, or meets it
+  Friction,     ///< of joints
+  MaxForce,     ///< the drive, or another one, is at its bound
+  OtherDrives,  ///< they give way
+  Gravity,
+};
+/// "time-step", "self-collision", "velocity-limit", "joint-limits", "friction", "max-force",
+/// "other-drives", "gravity".
+std::string_view cause_name(StepCause cause);
+
+/// A step beside its form.
+struct FormMatch {
+  bool by_form = false;  ///< overshoot and rise are those of the form
+  /// Where they are not: without all of these they are, and without less than these they are not;
+  /// empty: they are not, whatever is taken away.
+  std::vector<StepCause> causes;
+  std::optional<StepMetrics> without;  ///< the step without these
+};
+
 struct StressResult {
   double sigma = 0;           ///< of the random walk, as a part of the range in each step
   double largest_speed = 0;   ///< [rad/s or m/s]
@@ -95,6 +122,7 @@ struct DriveTestResult {
   std::vector<std::string> reasons;  ///< sentences without an end: why it failed, what to look at
   std::vector<LimitResult> limits;   ///< of Snap: lower, upper
   std::optional<StepMetrics> step;
+  std::optional<FormMatch> form;  ///< of Step, of joints that move alone
   std::optional<SineMetrics> sine;
   std::optional<StressResult> stress;
   std::vector<StepsRow> steps;

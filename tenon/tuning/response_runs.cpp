@@ -35,12 +35,6 @@ Result<bool> advance(TestRun& run, Rig& rig, double seconds) {
   return true;
 }
 
-/// Where a step of a row goes from and to.
-struct Way {
-  double from = 0;
-  double to = 0;
-};
-
 Way way_of(const TestRun& run, const Rig& rig, std::size_t row) {
   const double home = rig.home(row);
   const DriveRange range = range_of(run.in.scene, run.in.rows[row], home);
@@ -48,39 +42,6 @@ Way way_of(const TestRun& run, const Rig& rig, std::size_t row) {
   const double from = std::clamp(home, range.lower, range.upper);
   const bool up = from + size <= range.upper || range.upper - from >= from - range.lower;
   return {from, std::clamp(up ? from + size : from - size, range.lower, range.upper)};
-}
-
-/// Waits at the beginnings, then steps. -> the sample at which the step begins; none: unstable.
-Result<std::optional<std::size_t>> step_all(TestRun& run, Rig& rig,
-                                            const std::vector<std::size_t>& group,
-                                            std::vector<Way>& ways, double period) {
-  TENON_CHECK(rig.begin(group));
-  ways.clear();
-  for (const std::size_t row : group) {
-    ways.push_back(way_of(run, rig, row));
-    TENON_CHECK(rig.command(row, ways.back().from));
-  }
-  constexpr double kLook = 0.25;
-  constexpr StillRule kStands{1e-5, kLook / 2};
-  bool still = false;
-  for (double waited = 0; waited < kWaiting && !still; waited += kLook) {
-    TENON_TRY(const bool well, advance(run, rig, kLook));
-    if (!well) {
-      return std::optional<std::size_t>();
-    }
-    still = true;
-    const auto look = static_cast<std::size_t>(kLook / rig.time_step());
-    const std::size_t end = rig.sample_count();
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      still = still && still_since(rig.signal(i), end - std::min(look, end), end, kStands);
-    }
-  }
-  const std::size_t begin = rig.sample_count() - 1;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    TENON_CHECK(rig.command(group[i], ways[i].to));
-  }
-  TENON_TRY(const bool well, advance(run, rig, period));
-  return well ? std::optional<std::size_t>(begin) : std::nullopt;
 }
 
 Verdict stopped_verdict(const TestRun& run) {
@@ -155,6 +116,38 @@ void judge_sine(const TestRun& run, DriveTestResult& result) {
 
 }  // namespace
 
+Result<std::optional<std::size_t>> step_all(TestRun& run, Rig& rig,
+                                            const std::vector<std::size_t>& group,
+                                            std::vector<Way>& ways, double period) {
+  TENON_CHECK(rig.begin(group));
+  ways.clear();
+  for (const std::size_t row : group) {
+    ways.push_back(way_of(run, rig, row));
+    TENON_CHECK(rig.command(row, ways.back().from));
+  }
+  constexpr double kLook = 0.25;
+  constexpr StillRule kStands{1e-5, kLook / 2};
+  bool still = false;
+  for (double waited = 0; waited < kWaiting && !still; waited += kLook) {
+    TENON_TRY(const bool well, advance(run, rig, kLook));
+    if (!well) {
+      return std::optional<std::size_t>();
+    }
+    still = true;
+    const auto look = static_cast<std::size_t>(kLook / rig.time_step());
+    const std::size_t end = rig.sample_count();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      still = still && still_since(rig.signal(i), end - std::min(look, end), end, kStands);
+    }
+  }
+  const std::size_t begin = rig.sample_count() - 1;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    TENON_CHECK(rig.command(group[i], ways[i].to));
+  }
+  TENON_TRY(const bool well, advance(run, rig, period));
+  return well ? std::optional<std::size_t>(begin) : std::nullopt;
+}
+
 Result<void> run_step(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
                       DriveTests& tests) {
   tests.period = run.in.options.period.value_or(kStepPeriod);
@@ -169,6 +162,9 @@ Result<void> run_step(TestRun& run, Rig& rig, const std::vector<std::size_t>& gr
       result.step = step_metrics(result.signal, *begin, ways[i].to, rig.max_force(group[i]));
       result.saturation = result.step->saturation;
       judge_step(run, rig, ways[i], result);
+      if (group.size() == 1) {
+        TENON_CHECK(judge_form(run, tests.period, result));
+      }
     } else {
       result.verdict = stopped_verdict(run);
     }

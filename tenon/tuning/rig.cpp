@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// One simulation serves all joints of a test: it is reset between them, and gains that are tried
+// are given to the engine as parameters, which needs no new model.
 #include "tenon/tuning/rig.h"
 
 #include <algorithm>
@@ -27,6 +30,7 @@ Result<Rig> Rig::make(const scene::PhysicsScene& scene, const std::vector<DriveR
 
 Result<void> Rig::begin(const std::vector<std::size_t>& watched) {
   TENON_CHECK(simulation_->reset());
+  TENON_CHECK(apply_given());
   homes_.assign(rows_->size(), 0);
   commands_.assign(rows_->size(), 0);
   for (std::size_t i = 0; i < rows_->size(); ++i) {
@@ -44,6 +48,26 @@ Result<void> Rig::begin(const std::vector<std::size_t>& watched) {
   recording_ = true;
   fastest_ = scene::kUnlimited;
   read_back();
+  return {};
+}
+
+void Rig::give_own(std::size_t row) {
+  const DriveRow& of = (*rows_)[row];
+  const scene::Drive& drive = scene_->joints[of.joint].drives[*of.drive];
+  give(row, {{drive.stiffness, drive.damping}, drive.max_force});
+}
+
+Result<void> Rig::apply_given() {
+  for (const auto& [row, drive] : given_) {
+    const DriveRow& of = (*rows_)[row];
+    using engines::Parameter;
+    const auto set = [&](Parameter what, double value) {
+      return simulation_->set_parameter({what, of.joint, *of.drive}, value);
+    };
+    TENON_CHECK(set(Parameter::DriveStiffness, drive.gains.stiffness));
+    TENON_CHECK(set(Parameter::DriveDamping, drive.gains.damping));
+    TENON_CHECK(set(Parameter::DriveMaxForce, drive.max_force));
+  }
   return {};
 }
 

@@ -3,14 +3,22 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tenon/tuning/drive_tests.h"
 
 /// Internal to the tests of drives.
 namespace tenon::tuning {
+
+/// What a drive has in place of what its scene says.
+struct GivenDrive {
+  Gains gains;
+  double max_force = scene::kUnlimited;  ///< [N or N m]
+};
 
 /// A simulation whose position drives are told where to go, and what some of them do.
 class Rig {
@@ -33,6 +41,12 @@ class Rig {
   const Signal& signal(std::size_t place) const { return signals_[place]; }
   Signal take_signal(std::size_t place) { return std::move(signals_[place]); }
   std::size_t sample_count() const { return signals_.empty() ? 0 : signals_.front().size(); }
+  /// The engine can change drives without a new model, so that give() has an effect.
+  bool can_give() const { return simulation_->can(engines::Ability::Parameters); }
+  /// From the next begin() on.
+  void give(std::size_t row, const GivenDrive& drive) { given_[row] = drive; }
+  /// As the scene has it, again.
+  void give_own(std::size_t row);
   /// No memory for signals: of long runs of which only the speed counts.
   void record(bool on) { recording_ = on; }
   void bound_speeds(double most) { fastest_ = most; }
@@ -42,6 +56,7 @@ class Rig {
   Rig(const scene::PhysicsScene& scene, const std::vector<DriveRow>& rows,
       std::unique_ptr<engines::Simulation> simulation);
   bool read_back();
+  Result<void> apply_given();
 
   const scene::PhysicsScene* scene_;
   const std::vector<DriveRow>* rows_;
@@ -51,9 +66,16 @@ class Rig {
   double fastest_ = scene::kUnlimited;
   std::vector<double> homes_;     // (row_count)
   std::vector<double> commands_;  // (row_count)
+  std::map<std::size_t, GivenDrive> given_;
   std::vector<std::size_t> watched_;
   std::vector<Signal> signals_;  // (watched_count)
   std::vector<double> speeds_;   // (watched_count)
+};
+
+/// Where a step of a row goes from and to [m or rad].
+struct Way {
+  double from = 0;
+  double to = 0;
 };
 
 struct TestInputs {
@@ -63,12 +85,19 @@ struct TestInputs {
   const DriveTestOptions& options;
 };
 
+/// A scene from which something was taken away, and its simulation.
+struct ReducedScene {
+  std::unique_ptr<scene::PhysicsScene> scene;
+  std::unique_ptr<Rig> rig;
+};
+
 /// What the tests of one kind share: where they run, how far they are, what stops them.
 class TestRun {
  public:
   TestRun(const TestInputs& inputs, double planned) : in(inputs), planned_(planned) {}
 
   const TestInputs in;
+  std::map<unsigned, ReducedScene> reduced;  ///< by the set of causes taken away (step_causes.cpp)
 
   /// Counts simulated time; false: the test is to end.
   bool go_on(double seconds);
@@ -92,6 +121,23 @@ Result<void> run_stress(TestRun& run, Rig& rig, const std::vector<std::size_t>& 
                         DriveTests& tests);
 Result<void> run_steps(TestRun& run, Rig& rig, const std::vector<std::size_t>& group,
                        DriveTests& tests);
+
+/// Waits until the rows of a group stand at the beginnings of their ways, then commands the ends
+/// and runs for `period` [s]. -> the sample at which the step begins; none: unstable, or
+/// interrupted.
+Result<std::optional<std::size_t>> step_all(TestRun& run, Rig& rig,
+                                            const std::vector<std::size_t>& group,
+                                            std::vector<Way>& ways, double period);
+
+/// Overshoot and rise are those of the form within kOfForm, an overshoot also within kOfStep of the
+/// step.
+bool is_by_form(const StepMetrics& metrics, const Response& response);
+inline constexpr double kOfForm = 0.05;
+inline constexpr double kOfStep = 0.005;
+
+/// Says in DriveTestResult::form how far the step of a row is its form, and looks for what keeps it
+/// from that.
+Result<void> judge_form(TestRun& run, double period, DriveTestResult& result);
 
 /// "at its maxForce of 2 N m for 83 % of the time"; "" where it hardly is.
 std::string saturation_note(const TestRun& run, std::size_t row, double share);

@@ -68,6 +68,9 @@ class SpringSimulation : public engines::Simulation {
   SpringSimulation(const scene::PhysicsScene& scene, double inertia, double load)
       : scene_(scene), inertia_(inertia), load_(load) {
     outputs_.efforts = true;
+    for (const scene::Joint& joint : scene.joints) {
+      drives_.push_back(joint.drives.empty() ? scene::Drive{} : joint.drives.front());
+    }
     SpringSimulation::reset().has_value();
   }
 
@@ -109,7 +112,14 @@ class SpringSimulation : public engines::Simulation {
   Vec3d center_of_mass(Index) const override { return {}; }
   Vec3d gravity(Index) const override { return {}; }
   bool can(engines::Ability ability) const override {
-    return ability == engines::Ability::DriveEfforts;
+    return ability == engines::Ability::DriveEfforts || ability == engines::Ability::Parameters;
+  }
+  Result<void> set_parameter(const engines::ParameterKey& key, double value) override {
+    scene::Drive& drive = drives_[key.object];
+    (key.what == engines::Parameter::DriveStiffness ? drive.stiffness
+     : key.what == engines::Parameter::DriveDamping ? drive.damping
+                                                    : drive.max_force) = value;
+    return {};
   }
   engines::EngineObjects engine_objects() const override { return {}; }
   const engines::Outputs& outputs() const override { return outputs_; }
@@ -128,7 +138,7 @@ class SpringSimulation : public engines::Simulation {
     if (joint.drives.empty()) {
       return;
     }
-    const scene::Drive& drive = joint.drives.front();
+    const scene::Drive& drive = drives_[j];
     const double asked =
         drive.stiffness * (target_[j] - position_[j]) - drive.damping * velocity_[j];
     effort_[j] = std::fmin(std::fmax(asked, -drive.max_force), drive.max_force);
@@ -145,6 +155,7 @@ class SpringSimulation : public engines::Simulation {
   const scene::PhysicsScene& scene_;
   double inertia_;
   double load_;
+  std::vector<scene::Drive> drives_;  // (joint_count)
   std::size_t count_ = 0;
   std::vector<double> position_;
   std::vector<double> velocity_;

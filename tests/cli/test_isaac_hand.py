@@ -2,9 +2,10 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """The hand that Isaac's own pipeline structured: counts, five stable seconds, mimic laws, and a
-baked layer that OpenUSD plays with the same poses.
+baked layer that OpenUSD plays with the same poses; its gains beside those of the example hand,
+which docs/tuning.md has.
 
-    test_isaac_hand.py ROOT TENON
+    test_isaac_hand.py ROOT TENON [--write]    with --write that table is made
 
 Exit 77, with the reason, where ../shared or usd-core is absent.
 """
@@ -22,6 +23,15 @@ ASSET = SHARED / "assets/inspire_hand_isaac/inspire_hand.usda"
 # Follower, leader, multiplier of the URDF that the asset was made from; offsets are zero.
 LAWS = [("R_thumb_intermediate", "R_thumb_proximal_pitch", 1.6),
         ("R_thumb_distal", "R_thumb_proximal_pitch", 2.4)]
+PAGE = ROOT / "docs/tuning.md"
+BEGIN, END = "<!-- hands beside each other -->\n", "<!-- end of hands -->"
+# Driven joints of the example, and of the vendor's hand.
+HANDS = [("right_thumb_1_joint", "R_thumb_proximal_yaw_joint"),
+         ("right_thumb_2_joint", "R_thumb_proximal_pitch_joint"),
+         ("right_index_1_joint", "R_index_proximal_joint"),
+         ("right_middle_1_joint", "R_middle_proximal_joint"),
+         ("right_ring_1_joint", "R_ring_proximal_joint"),
+         ("right_little_1_joint", "R_pinky_proximal_joint")]
 LAWS += [(f"R_{f}_intermediate", f"R_{f}_proximal", 1.0)
          for f in ("index", "middle", "ring", "pinky")]
 
@@ -43,6 +53,41 @@ def check_counts(faults):
     none = tenon("info", ASSET, "--json", "--physics", "none")["physics"]
     if none["bodies"] != 0 or sum(none["joints"].values()) != 0:
         faults.append("none has bodies or joints")
+
+
+def gains_of(asset):
+    """Joint -> its inertia, authored gains, frequency [Hz] and ratio, and the gains of 8 Hz."""
+    told = tenon("tune", asset, "--physics", "physics", "--frequency", 8, "--damping-ratio", 1,
+                 "--json")
+    return {row["joint"].rsplit("/", 1)[1]: row for row in told["drives"] if row["to"]}
+
+
+def hands_table():
+    example, vendor = gains_of(ROOT / "examples/inspire_hand/inspire_hand.usda"), gains_of(ASSET)
+    lines = "| joint | hand | inertia | stiffness, damping | Hz, ratio | at 8 Hz, ratio 1 |\n"
+    lines += "|---|---|---|---|---|---|\n"
+    for names in HANDS:
+        for hand, rows, name in (("example", example, names[0]), ("vendor's", vendor, names[1])):
+            row = rows[name]
+            now, then = row["authored"], row["to"]["authored"]
+            has = row["frequencyHz"] is not None
+            response = f"{row['frequencyHz']:.4g}, {row['dampingRatio']:.4g}" if has else "-"
+            lines += (f"| {name.removesuffix('_joint')} | {hand} | {row['inertia']:.4g} | "
+                      f"{now['stiffness']:.4g}, {now['damping']:.4g} | {response} | "
+                      f"{then['stiffness']:.4g}, {then['damping']:.4g} |\n")
+    return lines
+
+
+def check_tuning(faults):
+    """The table of docs/tuning.md."""
+    page = PAGE.read_text(encoding="utf-8")
+    head, _, rest = page.partition(BEGIN)
+    _, _, tail = rest.partition(END)
+    made = head + BEGIN + hands_table() + END + tail
+    if "--write" in sys.argv:
+        PAGE.write_text(made, encoding="utf-8")
+    elif made != page:
+        faults.append("docs/tuning.md has other gains of the hands: --write")
 
 
 def check_laws(state, faults):
@@ -81,6 +126,7 @@ def main():
         return 77
     faults = []
     check_counts(faults)
+    check_tuning(faults)
     with tempfile.TemporaryDirectory() as folder:
         motion = pathlib.Path(folder) / "motion.usda"
         state = tenon("sim", ASSET, "--physics", "physics", "--duration", 5, "--json",

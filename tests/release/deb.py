@@ -58,7 +58,7 @@ def faults_of_fields(package):
     for library in ("libc6", "liblz4", "libqhull"):
         if library not in fields["Depends"]:
             yield f"it does not depend on {library}: {fields['Depends']}"
-    for library in ("libassimp", "libmeshoptimizer"):
+    for library in ("libassimp", "libmeshoptimizer", "libnlopt"):
         if library not in fields["Recommends"]:
             yield f"it does not recommend {library}: {fields['Recommends']}"
 

@@ -9,6 +9,7 @@
 #include "tenon/browser/browser_page.h"
 #include "tenon/guard/workers.h"
 #include "tenon/make_simulation.h"
+#include "tenon/tuning/optimizer.h"
 
 namespace tenon {
 namespace {
@@ -20,6 +21,16 @@ Result<guard::AboutWorker> about_worker() {
   guard::Workers workers;
   Diagnostics none;
   return guard::read_guarded<guard::AboutWorker>(workers, {guard::Reader::About, "", {}}, none);
+}
+
+/// Which searches gains.
+approximate::LibraryInfo optimizer_library() {
+  approximate::LibraryInfo info;
+  info.name = "nlopt";
+  info.version = tuning::optimizer_version();
+  info.available = !info.version.empty();
+  info.how_to_get = info.available ? "" : "install libnlopt0 to search gains of drives";
+  return info;
 }
 
 /// Which reads meshes in .dae, .gltf and .glb.
@@ -116,7 +127,7 @@ OptionalParts optional_parts() {
   const Result<guard::AboutWorker> worker = about_worker();
   for (const approximate::LibraryInfo& library :
        {approximate::decomposition_library(), approximate::simplification_library(),
-        mesh_library(worker), worker_program(worker)}) {
+        optimizer_library(), mesh_library(worker), worker_program(worker)}) {
     parts.libraries.push_back(part_of(library));
   }
   parts.libraries.push_back(viewer_part());

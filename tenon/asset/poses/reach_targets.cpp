@@ -248,4 +248,9 @@ Result<std::vector<PlacedPrim>> reach_targets(const stage::Stage& stage,
   return placed;
 }
 
+Result<PlacedPrim> placed_prim(const stage::Stage& stage, const scene::PhysicsScene& scene,
+                               const std::string& text) {
+  return FrameNames(stage, scene).find(text);
+}
+
 }  // namespace tenon

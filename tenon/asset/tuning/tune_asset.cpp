@@ -12,6 +12,7 @@
 
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/simulating/engine_choice.h"
+#include "tenon/asset/tuning/search_scenes.h"
 #include "tenon/asset/tuning/tuned_units.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/engines/time_step.h"
@@ -30,19 +31,14 @@ struct ReadDrives {
   std::vector<DriveRow> rows;
 };
 
-std::vector<DriveRow> rows_of(const scene::PhysicsScene& scene) {
-  const dynamics::Multibody multibody(scene);
-  const dynamics::Dynamics dynamics(multibody, multibody.start());
-  return tuning::drive_rows(multibody, dynamics);
-}
-
 Result<ReadDrives> read_drives(const std::string& path, const OpenOptions& open,
                                const TuneOptions& options, Diagnostics& diagnostics) {
   TENON_TRY(stage::Stage stage,
             tenon::open(path, with_readings(open, options.readings), diagnostics));
   auto scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(stage, read_options(options.readings), diagnostics));
-  std::vector<DriveRow> rows = rows_of(*scene);
+  TENON_CHECK(dynamics::apply_masks(options.masks, *scene, diagnostics));
+  std::vector<DriveRow> rows = drive_rows_of(*scene);
   return ReadDrives{std::move(stage), std::move(scene), std::move(rows)};
 }
 
@@ -170,13 +166,20 @@ Result<DriveWishes> wishes_of(const TuneOptions& options, const std::vector<Tune
       put_over(options.wish, found.wishes[i]);
     }
     found.named[i] = found.named[i] != 0 || !options.joints.empty() ? 1 : 0;
+    for (const DriveWish& one : options.drive_wishes) {
+      if (one.joint == drives[i].joint && one.dof == drives[i].row.dof) {
+        put_over(one.wish, found.wishes[i]);
+        found.named[i] = 1;
+      }
+    }
   }
   return found;
 }
 
 Result<void> add_wishes(const TuneOptions& options, const TunedUnits& units, TunedAsset& tuned) {
   TENON_TRY(const DriveWishes wishes, wishes_of(options, tuned.drives));
-  tuned.wished = !options.wish.empty() || !options.gains_file.empty();
+  tuned.wished = !options.wish.empty() || !options.gains_file.empty() ||
+                 !options.drive_wishes.empty() || options.search;
   for (std::size_t i = 0; i < tuned.drives.size(); ++i) {
     TunedDrive& drive = tuned.drives[i];
     const GainWish& wish = wishes.wishes[i];
@@ -252,7 +255,7 @@ void put_gains(const std::vector<TunedDrive>& drives, TunedEngine& engine) {
     }
   }
   if (changed) {
-    engine.rows = rows_of(*engine.scene);
+    engine.rows = drive_rows_of(*engine.scene);
   }
 }
 
@@ -367,6 +370,9 @@ Result<void> test_engine(const TuneOptions& options, const TunedAsset& tuned,
     };
   }
   test.go_on = options.listener.go_on;
+  if (options.found) {
+    test.found = [&](const tuning::DriveTestResult& result) { options.found(engine, result); };
+  }
   Diagnostics found;
   const tuning::MakeSimulation make = [&](const scene::PhysicsScene& scene,
                                           const engines::SimulationOptions& simulation) {
@@ -384,7 +390,29 @@ Result<void> test_engine(const TuneOptions& options, const TunedAsset& tuned,
   return {};
 }
 
+/// What was found, as wishes; where nothing meets the goal, a note.
+void wish_found(TunedAsset& tuned, std::vector<DriveWish>& wishes) {
+  for (const SearchedRow& row : tuned.search->drives) {
+    TunedDrive& drive = tuned.drives[row.drive];
+    if (!row.found.met) {
+      drive.notes.emplace_back("no gains were found that meet the goal");
+      continue;
+    }
+    DriveWish& one = wishes.emplace_back();
+    one.joint = drive.joint;
+    one.dof = drive.row.dof;
+    one.wish.frequency = row.found.response.frequency;
+    one.wish.damping_ratio = row.found.response.ratio;
+  }
+}
+
 }  // namespace
+
+std::vector<DriveRow> drive_rows_of(const scene::PhysicsScene& scene) {
+  const dynamics::Multibody multibody(scene);
+  const dynamics::Dynamics dynamics(multibody, multibody.start());
+  return tuning::drive_rows(multibody, dynamics);
+}
 
 bool TunedDrive::changes() const {
   return to &&
@@ -392,9 +420,10 @@ bool TunedDrive::changes() const {
 }
 
 bool TunedAsset::interrupted() const {
-  return std::any_of(engines.begin(), engines.end(), [](const TunedEngine& engine) {
+  const bool tests = std::any_of(engines.begin(), engines.end(), [](const TunedEngine& engine) {
     return engine.tests && engine.tests->interrupted;
   });
+  return tests || (search && search->interrupted);
 }
 
 bool TunedAsset::has(tuning::Verdict verdict) const {
@@ -422,12 +451,21 @@ Result<TunedAsset> tune_asset(const std::string& path, const TuneOptions& option
       tuned.drives[i].asked = true;
     }
   }
-  TENON_CHECK(add_wishes(options, units, tuned));
-  add_drive_request(tuned);
   TENON_TRY(const auto names, engines_of(options, table.stage, diagnostics));
-  TENON_TRY(const auto groups, test_groups(options, tuned));
+  std::vector<TunedEngine> engines;
   for (const std::string& name : names) {
     TENON_TRY(TunedEngine engine, open_engine(path, name, table, options));
+    engines.push_back(std::move(engine));
+  }
+  TuneOptions wanted = options;
+  if (options.search) {
+    TENON_TRY(tuned.search, search_drives(options, table.stage, tuned, engines));
+    wish_found(tuned, wanted.drive_wishes);
+  }
+  TENON_CHECK(add_wishes(wanted, units, tuned));
+  add_drive_request(tuned);
+  TENON_TRY(const auto groups, test_groups(options, tuned));
+  for (TunedEngine& engine : engines) {
     put_gains(tuned.drives, engine);
     for (TunedDrive& drive : tuned.drives) {
       TENON_CHECK(judge_sampling(options, engine, drive, diagnostics));

@@ -5,6 +5,7 @@
 // that all of them say the same.
 #include "tenon/asset/tuning/tuned_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -82,6 +83,14 @@ Json step_json(const tuning::StepMetrics& step) {
           {"steadyError", tuned_number(step.steady_error)}};
 }
 
+Json causes_json(const tuning::FormMatch& form) {
+  Json list = Json::array();
+  for (const tuning::StepCause cause : form.causes) {
+    list.push_back(std::string(cause_name(cause)));
+  }
+  return list;
+}
+
 Json result_json(const TunedEngine& engine, const DriveTestResult& result) {
   const DriveRow& row = engine.rows[result.row];
   Json json = {{"joint", engine.scene->joints[row.joint].path.str()},
@@ -97,6 +106,12 @@ Json result_json(const TunedEngine& engine, const DriveTestResult& result) {
     if (row.response) {
       json["step"]["form"] = {{"overshoot", tuning::overshoot_of(row.response->ratio)},
                               {"riseTime", tuning::rise_time_of(*row.response)}};
+    }
+    if (result.form) {
+      json["step"]["byForm"] = result.form->by_form;
+      json["step"]["causes"] = causes_json(*result.form);
+      json["step"]["without"] =
+          result.form->without ? step_json(*result.form->without) : Json(nullptr);
     }
   }
   if (result.sine) {
@@ -146,6 +161,35 @@ Json tuned_engine_json(const TunedEngine& engine) {
   json["results"] = Json::array();
   for (const DriveTestResult& result : tests.results) {
     json["results"].push_back(result_json(engine, result));
+  }
+  return json;
+}
+
+Json search_json(const TunedAsset& tuned, const TunedSearch& search) {
+  Json json = {{"overshoot", search.request.goal.overshoot},
+               {"settlingTime", search.request.goal.settling},
+               {"payloads", search.request.payloads},
+               {"at", search.request.at.empty() ? Json(nullptr) : Json(search.request.at)},
+               {"poses", search.request.poses},
+               {"seed", search.request.seed},
+               {"engines", search.engines},
+               {"scenes", search.scene_count},
+               {"interrupted", search.interrupted}};
+  json["drives"] = Json::array();
+  for (const SearchedRow& row : search.drives) {
+    const TunedDrive& drive = tuned.drives[row.drive];
+    json["drives"].push_back(
+        {{"joint", drive.joint.str()},
+         {"axis", std::string(dof_name(drive.row.dof))},
+         {"met", row.found.met},
+         {"frequency", tuned_number(row.found.response.frequency)},
+         {"frequencyHz", tuned_number(row.found.response.frequency / (2 * kPi))},
+         {"dampingRatio", tuned_number(row.found.response.ratio)},
+         {"overshoot", tuned_number(row.found.overshoot)},
+         {"settlingTime", tuned_number(row.found.settling_time)},
+         {"worst", row.found.worst},
+         {"tries", row.found.tries},
+         {"reasons", row.found.reasons}});
   }
   return json;
 }
@@ -229,6 +273,9 @@ Json tuned_json(const TunedAsset& tuned) {
   for (const TunedEngine& engine : tuned.engines) {
     json["engines"].push_back(tuned_engine_json(engine));
   }
+  if (tuned.search) {
+    json["search"] = search_json(tuned, *tuned.search);
+  }
   json["wished"] = tuned.wished;
   json["request"] = tuned.request.drive;
   return json;
@@ -238,6 +285,25 @@ Json tuned_json(const TunedAsset& tuned, const std::vector<AssetEdit>& edits,
                 const EditedAsset& edited) {
   Json json = tuned_json(tuned);
   json.update(edited_json(edits, edited, false));
+  return json;
+}
+
+Json tested_json(const TunedEngine& engine, const DriveTestResult& result, std::size_t most) {
+  Json json = result_json(engine, result);
+  const tuning::Signal& signal = result.signal;
+  const std::size_t step = std::max<std::size_t>(1, (signal.size() + most - 1) / most);
+  const auto thinned = [&](const std::vector<double>& values) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < values.size(); i += step) {
+      list.push_back(tuned_number(values[i]));
+    }
+    return list;
+  };
+  json["signal"] = {{"time", thinned(signal.time)},
+                    {"command", thinned(signal.command)},
+                    {"position", thinned(signal.position)},
+                    {"velocity", thinned(signal.velocity)},
+                    {"effort", thinned(signal.effort)}};
   return json;
 }
 
