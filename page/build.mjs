@@ -62,10 +62,9 @@ function sevenBitText(bytes) {
 async function main() {
   const [live, report, record] = await Promise.all(
     ["live", "report", "record"].map((part) => bundle(`src/${part}/main.ts`)));
-  const style = (await esbuild.transform(await readFile(join(here, "src/page.css"), "utf8"), {
-    loader: "css",
-    minify: true,
-  })).code;
+  const css = async (name) =>
+    (await esbuild.transform(await readFile(join(here, name), "utf8"), { loader: "css", minify: true })).code;
+  const style = await css("src/page.css");
   const start = (await esbuild.transform(await readFile(join(here, "src/report/start.js"), "utf8"), {
     minify: true,
   })).code;
@@ -80,7 +79,7 @@ async function main() {
   frame = fill(frame, "{{SCRIPT}}", sevenBitText(gzipSync(report, { level: 9 })));
   await mkdir(folder, { recursive: true });
   await writeFile(join(folder, "live.js"), live);
-  await writeFile(join(folder, "page.css"), style);
+  await writeFile(join(folder, "page.css"), style + (await css("src/live/panels.css")));
   await writeFile(join(folder, "index.html"), await readFile(join(here, "src/live/index.html")));
   await writeFile(join(folder, "record.js"), record);
   await writeFile(join(folder, "record.html"), await readFile(join(here, "src/record/record.html")));

@@ -25,14 +25,6 @@ Result<void> check_writable(const EditState& state) {
   return {};
 }
 
-/// What follows is read again, so that a commit compares with what is there now.
-void read_anew() {
-  if (bytes::ReadRecord* record = bytes::ReadRecord::current()) {
-    record->clear();
-    record->keep_digests();
-  }
-}
-
 Result<AssetEdit> edit_of(AssetEdit::Kind kind, const Asked& asked) {
   const auto object = Path::parse(asked.text("object"));
   if (!object || !object->is_property() || !object->is_absolute()) {
@@ -47,20 +39,6 @@ Result<AssetEdit> edit_of(AssetEdit::Kind kind, const Asked& asked) {
   return edit;
 }
 
-/// The variants that the session shows are those in which the edit has to count.
-EditOptions edit_options(const EditState& state, const Asked& asked) {
-  EditOptions options;
-  options.open = state.options.asset.open;
-  const stage::Prim root = state.asset.stage->default_prim();
-  for (const OpenOptions::Selection& selection : options.open.selections) {
-    if (root && selection.set == "Physics" && selection.prim == root.path().str()) {
-      options.open.physics_variant = selection.variant;
-    }
-  }
-  options.engine = asked.text("engine");
-  return options;
-}
-
 /// Why an edit is without effect, else whatever kept it from being written.
 Error fault_of_edit(const Diagnostics& found) {
   for (const Diagnostic& finding : found) {
@@ -72,37 +50,75 @@ Error fault_of_edit(const Diagnostics& found) {
       .with_rule("edit.no-effect");
 }
 
-Result<Json> make_edit(EditState& state, const AssetEdit& edit, const EditOptions& options,
-                       Outbox& out) {
-  read_anew();
-  Diagnostics found;
-  const std::vector<AssetEdit> edits = {edit};
-  TENON_TRY(const EditedAsset made, edit_asset(state.options.asset.path, edits, options, found));
-  if (!made.without_effect.empty()) {
-    return fault_of_edit(found);
-  }
-  TENON_CHECK(state.history.make(made.files, options.open.files, state.options.write));
-  TENON_CHECK(state.reopen(state.options.asset, "edit", out));
-  return edited_json(edits, made, false);
-}
-
 Result<Json> reopened(EditState& state, const char* why, Outbox& out) {
   TENON_CHECK(state.reopen(state.options.asset, why, out));
   return Json::object();
 }
 
+Result<Json> make_edit(EditState& state, const AssetEdit& edit, const std::string& engine,
+                       Outbox& out) {
+  read_anew();
+  EditOptions options = edit_options(state);
+  options.engine = engine;
+  return make_edits(state, {edit}, options, MayRest::No, false, out);
+}
+
 }  // namespace
+
+void read_anew() {
+  if (bytes::ReadRecord* record = bytes::ReadRecord::current()) {
+    record->clear();
+    record->keep_digests();
+  }
+}
+
+EditOptions edit_options(const Session::State& state) {
+  EditOptions options;
+  options.open = state.options.asset.open;
+  const stage::Prim root = state.asset.stage->default_prim();
+  for (const OpenOptions::Selection& selection : options.open.selections) {
+    if (root && selection.set == "Physics" && selection.prim == root.path().str()) {
+      options.open.physics_variant = selection.variant;
+    }
+  }
+  return options;
+}
+
+Result<Json> make_edits(Session::State& state, const std::vector<AssetEdit>& edits,
+                        const EditOptions& options, MayRest may_rest, bool dry_run, Outbox& out) {
+  if (edits.empty()) {
+    return Error(ErrorCode::Invalid, "there is nothing to write: the files say this already")
+        .with_rule("live.nothing-to-write");
+  }
+  Diagnostics found;
+  TENON_TRY(const EditedAsset made, edit_asset(state.options.asset.path, edits, options, found));
+  if (!made.without_effect.empty() && may_rest == MayRest::No) {
+    return fault_of_edit(found);
+  }
+  return write_made(state, edits, made, dry_run, out);
+}
+
+Result<Json> write_made(Session::State& state, const std::vector<AssetEdit>& edits,
+                        const EditedAsset& made, bool dry_run, Outbox& out) {
+  if (!dry_run) {
+    TENON_CHECK(check_writable(state));
+    TENON_CHECK(
+        state.history.make(made.files, state.options.asset.open.files, state.options.write));
+    TENON_CHECK(state.reopen(state.options.asset, "edit", out));
+  }
+  return edited_json(edits, made, dry_run);
+}
 
 Result<Json> set_property(Session::State& state, ClientNumber, const Asked& asked, Outbox& out) {
   TENON_CHECK(check_writable(state));
   TENON_TRY(const AssetEdit edit, edit_of(AssetEdit::Kind::SetProperty, asked));
-  return make_edit(state, edit, edit_options(state, asked), out);
+  return make_edit(state, edit, asked.text("engine"), out);
 }
 
 Result<Json> clear_property(Session::State& state, ClientNumber, const Asked& asked, Outbox& out) {
   TENON_CHECK(check_writable(state));
   TENON_TRY(const AssetEdit edit, edit_of(AssetEdit::Kind::ClearProperty, asked));
-  return make_edit(state, edit, edit_options(state, asked), out);
+  return make_edit(state, edit, asked.text("engine"), out);
 }
 
 Result<Json> undo_edit(Session::State& state, ClientNumber, const Asked&, Outbox& out) {

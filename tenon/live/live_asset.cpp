@@ -130,6 +130,7 @@ Result<LiveAsset> open_live_asset(const LiveAssetOptions& options) {
   asset.explained = std::make_unique<answers::Explained>(
       explained_stage(*asset.stage, options.readings, of_physics));
   TENON_CHECK(start_at(*asset.stage, asset.explained->scene, options.pose));
+  TENON_CHECK(dynamics::apply_masks(options.masks, asset.explained->scene, asset.opening));
   const auto rotations = scene::wanted_rotations(asset.scene());
   for (std::size_t i = 0; i < asset.scene().joints.size(); ++i) {
     const scene::Joint& joint = asset.scene().joints[i];

@@ -12,6 +12,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/function.h"
 #include "tenon/base/result.h"
+#include "tenon/dynamics/masks.h"
 #include "tenon/engines/world.h"
 #include "tenon/open_stage.h"
 #include "tenon/physics/readings.h"
@@ -27,6 +28,7 @@ struct LiveAssetOptions {
   OpenOptions open;
   physics::Readings readings;
   std::vector<std::string> pose;  ///< where it starts (dynamics/posture_text.h); empty: as it is
+  dynamics::Masks masks;          ///< links and joints that the session skips or holds
   std::string engine;             ///< empty: what the selected variant names
   double time_step = 0;           ///< [s]; 0: the asset's, else the engine's
   /// Makes the picture, a binary glTF with a node for each body in order; empty: there is none.
@@ -41,7 +43,8 @@ struct LiveAsset {
   std::string engine;
   std::optional<engines::World> world;  ///< refers to the scene; none: `problem` says why
   std::optional<Diagnostic> problem;
-  Diagnostics opening;                 ///< errors and warnings that came up while it was opened
+  /// Errors and warnings that came up while it was opened, and what is masked.
+  Diagnostics opening;
   std::vector<scene::JointDofs> dofs;  ///< (joint_count)
   std::shared_ptr<const std::string> picture;
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestText = 32 << 10;
 constexpr std::size_t kMostNumbers = 64;
+constexpr std::size_t kMostRows = 256;
 constexpr std::string_view kRequestTag = "do";
 constexpr auto kText = FieldType::Text;
 constexpr auto kObject = FieldType::Object;
@@ -86,6 +87,18 @@ constexpr std::array kContacts{
           "{`collider0`, `collider1`, `body0`, `body1` (null: static), `point`, `normal`, `depth`, "
           "`force`: on collider1}"},
 };
+constexpr std::array kProgress{
+    Field{"of", kText, true, "the request"},
+    Field{"what", kText, true, "is being done"},
+    Field{"done", kNumber, true, "of all of it, from 0 to 1"},
+};
+constexpr std::array kTested{
+    Field{"engine", kText, true, "that ran the test"},
+    Field{"test", kText, true, "`snap`, `step` or `sine`"},
+    Field{"result", kObject, true,
+          "as a row of `results` of `tenon tune --test --json`, and `signal`: {`time`, `command`, "
+          "`position`, `velocity`, `effort`}, at most 500 points of each"},
+};
 constexpr std::array kAnswer{
     Field{"to", kText, true, "the request's name"},
     Field{"id", FieldType::Any, false, "the request's"},
@@ -108,6 +121,9 @@ constexpr std::array kNotices{
     MessageInfo{"plots", kPlots, "A point of the plots, twenty times a second for who observes",
                 ""},
     MessageInfo{"contacts", kContacts, "Where colliders touch, likewise", ""},
+    MessageInfo{"progress", kProgress, "How far a long request of this page is, ten times a second",
+                ""},
+    MessageInfo{"tested", kTested, "What came of one drive, while `testDrives` goes on", ""},
     MessageInfo{"answer", kAnswer, "A request was done", ""},
     MessageInfo{"error", kError, "A request was not done", ""},
     MessageInfo{"problem", kProblem, "Something went wrong, not in a request", ""},
@@ -141,6 +157,16 @@ bool are_numbers(const Json& value) {
          std::all_of(value.begin(), value.end(), is_number);
 }
 
+bool are_paths(const Json& value) {
+  return value.is_array() && value.size() <= kMostRows &&
+         std::all_of(value.begin(), value.end(), is_prim_path);
+}
+
+bool are_rows(const Json& value) {
+  return value.is_array() && value.size() <= kMostRows &&
+         std::all_of(value.begin(), value.end(), [](const Json& row) { return row.is_object(); });
+}
+
 /// What values of a type are, and whether one is.
 struct TypeRule {
   std::string_view wanted;
@@ -165,6 +191,10 @@ TypeRule rule_of_type(FieldType type) {
               [](const Json& value) { return are_numbers(value) && value.size() == 3; }};
     case FieldType::Numbers:
       return {"must be a list of at most 64 finite numbers", are_numbers};
+    case FieldType::Paths:
+      return {"must be a list of at most 256 absolute paths of prims", are_paths};
+    case FieldType::Rows:
+      return {"must be a list of at most 256 objects", are_rows};
     case FieldType::Object:
     case FieldType::List:
     case FieldType::Any:
@@ -186,6 +216,30 @@ std::string fault_of(const Field& field, const Json& value) {
   return std::string(rule.wanted) + (counts ? " from 0 to " + std::to_string(field.most) : "");
 }
 
+/// The first fault of the rows of a field: "has a row whose `joint` is missing".
+std::string fault_of_rows(const Field& field, const Json& rows) {
+  const std::string begin = "has a row whose `";
+  for (const Json& row : rows) {
+    for (const auto& [key, value] : row.items()) {
+      const auto known =
+          std::find_if(field.row.begin(), field.row.end(),
+                       [&wanted = key](const Field& one) { return one.name == wanted; });
+      if (known == field.row.end()) {
+        return begin + key.substr(0, 64) + "` is not known";
+      }
+      if (const std::string fault = fault_of(*known, value); !fault.empty()) {
+        return begin + key + "` " + fault;
+      }
+    }
+    for (const Field& one : field.row) {
+      if (one.required && !row.contains(std::string(one.name))) {
+        return begin + std::string(one.name) + "` is missing";
+      }
+    }
+  }
+  return {};
+}
+
 Result<void> check_fields(const MessageInfo& info, const Json& message) {
   for (const auto& [key, value] : message.items()) {
     const auto field =
@@ -199,6 +253,11 @@ Result<void> check_fields(const MessageInfo& info, const Json& message) {
     }
     if (const std::string fault = fault_of(*field, value); !fault.empty()) {
       return bad_field(info, key, fault);
+    }
+    if (field->type == FieldType::Rows && value.is_array()) {
+      if (const std::string fault = fault_of_rows(*field, value); !fault.empty()) {
+        return bad_field(info, key, fault);
+      }
     }
   }
   for (const Field& field : info.fields) {
@@ -226,6 +285,10 @@ Json schema_of(FieldType type) {
       return {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
     case FieldType::Numbers:
       return {{"type", "array"}, {"items", number}, {"maxItems", kMostNumbers}};
+    case FieldType::Paths:
+      return {{"type", "array"}, {"items", schema_of(FieldType::Path)}, {"maxItems", kMostRows}};
+    case FieldType::Rows:
+      return {{"type", "array"}, {"items", {{"type", "object"}}}, {"maxItems", kMostRows}};
     case FieldType::Object:
       return {{"type", "object"}};
     case FieldType::List:
@@ -236,6 +299,25 @@ Json schema_of(FieldType type) {
   return Json::object();
 }
 
+Json row_schema(const Field& rows) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const Field& field : rows.row) {
+    Json schema = schema_of(field.type);
+    if (!field.required) {
+      schema["type"] = Json::array({schema["type"], "null"});
+    } else {
+      required.push_back(field.name);
+    }
+    schema["description"] = field.meaning;
+    properties[std::string(field.name)] = std::move(schema);
+  }
+  return {{"type", "object"},
+          {"properties", std::move(properties)},
+          {"required", std::move(required)},
+          {"additionalProperties", false}};
+}
+
 Json message_schema(const MessageInfo& info, std::string_view tag) {
   Json properties = {{std::string(tag), {{"const", info.name}}}};
   Json required = Json::array({tag});
@@ -243,6 +325,9 @@ Json message_schema(const MessageInfo& info, std::string_view tag) {
     Json schema = schema_of(field.type);
     if (field.type == FieldType::Integer && tag == kRequestTag) {
       schema["maximum"] = field.most;
+    }
+    if (!field.row.empty()) {
+      schema["items"] = row_schema(field);
     }
     if (!field.required && schema.contains("type")) {
       schema["type"] = Json::array({schema["type"], "null"});
@@ -311,6 +396,24 @@ std::vector<double> Asked::numbers(std::string_view field) const {
   return list;
 }
 Path Asked::path(std::string_view field) const { return Path::parse(text(field)).value_or(Path()); }
+std::vector<Path> Asked::paths(std::string_view field) const {
+  std::vector<Path> list;
+  if (has(field)) {
+    for (const Json& item : fields_[std::string(field)]) {
+      list.push_back(Path::parse(item.get<std::string>()).value_or(Path()));
+    }
+  }
+  return list;
+}
+std::vector<Asked> Asked::rows(std::string_view field) const {
+  std::vector<Asked> list;
+  if (has(field)) {
+    for (const Json& item : fields_[std::string(field)]) {
+      list.emplace_back().fields_ = item;
+    }
+  }
+  return list;
+}
 
 Result<std::size_t> Listener::read(std::string_view text, Asked& asked) const {
   asked.fields_ = answers::parsed(text);

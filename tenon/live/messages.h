@@ -34,6 +34,8 @@ enum class FieldType : std::uint8_t {
   Flag,
   Point,    ///< three numbers
   Numbers,  ///< at most 64
+  Paths,    ///< at most 256, as Path
+  Rows,     ///< at most 256 objects with the fields of Field::row
   Object,   ///< in notices alone, like the next ones
   List,
   Any,
@@ -45,6 +47,7 @@ struct Field {
   bool required = true;  ///< else it may be missing or null
   std::string_view meaning;
   std::uint32_t most = 1'000'000;  ///< of Integer
+  std::span<const Field> row{};    ///< of Rows; without Rows themselves
 };
 
 /// A kind of message: a request, which says "do", or a notice, which says "is".
@@ -77,6 +80,8 @@ class Asked {
   Vec3d point(std::string_view field) const;
   std::vector<double> numbers(std::string_view field) const;
   Path path(std::string_view field) const;  ///< empty when not given
+  std::vector<Path> paths(std::string_view field) const;
+  std::vector<Asked> rows(std::string_view field) const;
 
  private:
   friend class Listener;

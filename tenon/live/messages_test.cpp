@@ -53,6 +53,36 @@ TEST(Messages, RefuseFieldsThatAreNotOfTheirType) {
   }
 }
 
+TEST(Messages, HaveRowsWithFieldsOfTheirOwn) {
+  Asked asked;
+  const auto index =
+      Listener(requests())
+          .read(R"({"do":"setLimits","limits":[{"joint":"/a/j","dof":"rotX","maxEffort":2,)"
+                R"("speedLimit":null}]})",
+                asked);
+  ASSERT_TRUE(index) << index.error().to_string();
+  const std::vector<Asked> rows = asked.rows("limits");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].path("joint").str(), "/a/j");
+  EXPECT_EQ(rows[0].number("maxEffort"), 2);
+  EXPECT_FALSE(rows[0].has("speedLimit"));
+  std::string many = R"({"do":"testDrives","test":"snap","joints":["/a")";
+  for (int i = 0; i < 256; ++i) {
+    many += R"(,"/a")";
+  }
+  for (const std::string& text : std::vector<std::string>{
+           R"({"do":"setLimits","limits":{}})", R"({"do":"setLimits","limits":[7]})",
+           R"({"do":"setLimits","limits":[{"joint":"/a"}]})",
+           R"({"do":"setLimits","limits":[{"joint":"a","dof":"rotX"}]})",
+           R"({"do":"setLimits","limits":[{"joint":"/a","dof":"rotX","x":1}]})",
+           R"({"do":"setLimits","limits":[{"joint":"/a","dof":"rotX","maxEffort":[[[]]]}]})",
+           R"({"do":"filterPairs","filter":[{"bodyA":"/etc/x.srdf","bodyB":"/b"}]})",
+           R"({"do":"filterPairs","filter":["/a,/b"]})",
+           R"({"do":"testDrives","test":"snap","joints":["a.*"]})", many + "]}"}) {
+    EXPECT_EQ(rule_of(text), "live.bad-field") << text.substr(0, 80);
+  }
+}
+
 TEST(Messages, OfStrangersAreAnsweredWithTheirId) {
   Asked asked;
   EXPECT_FALSE(Listener(requests()).read(R"({"do":"fly","id":"x"})", asked));

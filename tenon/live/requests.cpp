@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of requests, and what those do that steer the simulation. A request that cannot be done
-// is an error that the page receives, and changes nothing.
+// The table of requests, and what those do that steer the simulation; panel_requests.cpp has those
+// of panels. A request that cannot be done is an error that the page receives, and changes nothing.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -23,12 +23,6 @@ constexpr auto kTextField = FieldType::Text;
 constexpr std::uint32_t kMostSteps = 1000;
 constexpr double kLeastSpeed = 0.001;
 constexpr double kMostSpeed = 100;
-
-Error refused(std::string message, std::string fix) {
-  return Error(ErrorCode::Invalid, std::move(message))
-      .with_rule("live.refused")
-      .with_fix(std::move(fix));
-}
 
 /// Tells everyone, and is the answer.
 Json new_state(const State& state, Outbox& out) {
@@ -318,12 +312,27 @@ constexpr std::array kRequests{
             clear_property},
     Request{{"undo", kNoFields, "Takes the last edit back", "nothing"}, undo_edit},
     Request{{"redo", kNoFields, "Makes it again", "nothing"}, redo_edit},
+    // Those of panels follow (panel_requests.cpp).
     Request{{"messages", kNoFields, "These tables", "{`protocol`, `requests`, `notices`}"},
             tell_messages},
 };
 
 }  // namespace
 
-std::span<const Request> all_requests() { return kRequests; }
+Error refused(std::string message, std::string fix) {
+  return Error(ErrorCode::Invalid, std::move(message))
+      .with_rule("live.refused")
+      .with_fix(std::move(fix));
+}
+
+std::span<const Request> all_requests() {
+  static const std::vector<Request> all = [] {
+    std::vector<Request> list(kRequests.begin(), kRequests.end());
+    const auto panels = panel_requests();
+    list.insert(list.end() - 1, panels.begin(), panels.end());  // `messages` comes last
+    return list;
+  }();
+  return all;
+}
 
 }  // namespace tenon::live

@@ -217,7 +217,52 @@ void Session::State::frame_due(Outbox& out) {
   moved = false;
 }
 
+void Session::State::tell_found(Work& work, Outbox& out) const {
+  for (const Json& notice : work.take_found()) {
+    tell(work.client(), notice, out);
+  }
+}
+
+void Session::State::tell_works(Outbox& out) {
+  for (const std::shared_ptr<Work>& work : works) {
+    tell_found(*work, out);
+    if (const Json progress = work->take_progress(); progress.is_object() && !work->is_over()) {
+      tell(work->client(), progress, out);
+    }
+  }
+  std::erase_if(works, [](const auto& work) { return work->is_over(); });
+}
+
 // ---- what requests do
+
+Result<std::shared_ptr<Work>> Session::State::begin_work(ClientNumber client, const char* request) {
+  std::erase_if(works, [](const auto& work) { return work->is_over(); });
+  for (const std::shared_ptr<Work>& work : works) {
+    if (work->client() == client) {
+      return Error(ErrorCode::Limit, "`" + work->request() + "` of this page goes on")
+          .with_rule("live.busy")
+          .with_fix("wait for it, or end it by the request `cancel`");
+    }
+  }
+  later_work = std::make_shared<Work>(client, request);
+  works.push_back(later_work);
+  return later_work;
+}
+
+Result<void> Session::State::set_gains(scene::Index joint, scene::Dof dof,
+                                       const tuning::Gains& wanted) {
+  TENON_TRY(engines::World * model, world());
+  const std::vector<scene::Drive>& drives = asset.scene().joints[joint].drives;
+  for (scene::Index i = 0; i < drives.size(); ++i) {
+    if (drives[i].dof == dof) {
+      using engines::Parameter;
+      TENON_CHECK(model->set_parameter({Parameter::DriveStiffness, joint, i}, wanted.stiffness));
+      return model->set_parameter({Parameter::DriveDamping, joint, i}, wanted.damping);
+    }
+  }
+  return refused("the joint has no drive along " + std::string(scene::dof_name(dof)),
+                 "name one that it has");
+}
 
 Result<engines::World*> Session::State::world() {
   if (!asset.world) {
@@ -251,6 +296,11 @@ void Session::State::begin_model() {
     const bool is_set = index && asset.world &&
                         asset.world->set_drive_target(*index, drive, known->second).has_value();
     known = is_set || !asset.world ? std::next(known) : targets.erase(known);
+  }
+  for (auto known = gains.begin(); asset.world && known != gains.end();) {
+    const auto index = joint(known->first.first);
+    const bool is_set = index && set_gains(*index, known->first.second, known->second).has_value();
+    known = is_set ? std::next(known) : gains.erase(known);
   }
   told_faults.clear();
   watch_run(targets.empty() ? watches::Steering::None : watches::Steering::Commands);
@@ -291,6 +341,7 @@ void Session::State::set_asset(LiveAsset opened, const char* why, Outbox& out) {
   watches.reset();  // they refer to the world, and it to the scene, that goes
   asset.world.reset();
   asset = std::move(opened);
+  drive_rows.reset();
   outdated.reset();
   ++revision;
   begin_watching();
@@ -403,6 +454,9 @@ void Session::State::advance(double seconds, Outbox& out) {
   if (observer_timer.due(seconds) && playing) {
     tell_observers(out);
   }
+  if (work_timer.due(seconds)) {
+    tell_works(out);
+  }
 }
 
 // ---- the session
@@ -455,6 +509,11 @@ void Session::greet(ClientNumber client, Outbox& out) {
 
 void Session::forget(ClientNumber client) {
   state_->clients.erase(client);
+  for (const std::shared_ptr<Work>& work : state_->works) {
+    if (work->client() == client) {
+      work->end();
+    }
+  }
   state_->pulls.release(client);
 }
 
@@ -467,14 +526,24 @@ void Session::hear(ClientNumber client, std::string_view text, Outbox& out) {
     state_->frame_due(out);
   }
   if (result && state_->later) {
-    out.late.push_back({client, asked.name(), asked.id(), std::exchange(state_->later, {})});
+    out.late.push_back({client, asked.name(), asked.id(), std::exchange(state_->later, {}),
+                        std::exchange(state_->later_work, {})});
   } else {
+    if (state_->later_work) {
+      std::exchange(state_->later_work, {})->finish();
+    }
     state_->tell_answer(client, asked.name(), asked.id(), std::move(result), out);
   }
 }
 
 void Session::answer_late(const LateAnswer& late, Result<Json> result, Outbox& out) const {
+  if (late.work) {
+    late.work->finish();
+  }
   if (state_->clients.contains(late.client)) {
+    if (late.work) {
+      state_->tell_found(*late.work, out);
+    }
     state_->tell_answer(late.client, late.request, late.id, std::move(result), out);
   }
 }

@@ -18,6 +18,7 @@
 #include "tenon/live/edit_history.h"
 #include "tenon/live/live_asset.h"
 #include "tenon/live/messages.h"
+#include "tenon/live/work.h"
 
 namespace tenon::live {
 
@@ -31,6 +32,7 @@ struct LateAnswer {
   std::string request;
   Json id;
   Function<Result<Json>()> make;
+  std::shared_ptr<Work> work{};  ///< what `make` tells meanwhile; null: nothing
 };
 
 /// What comes out of one call.

@@ -462,6 +462,57 @@ TEST_F(SessionTest, RefusesEditsThatCannotBe) {
             "live.read-only");
 }
 
+TEST_F(SessionTest, SetsGainsInTheModelAndSavesThem) {
+  const Json set = ask({{"do", "setGains"},
+                        {"joint", "/Arm/hinge"},
+                        {"dof", "rotY"},
+                        {"frequency", 20},
+                        {"dampingRatio", 0.5}});
+  ASSERT_TRUE(set.is_object()) << set;
+  EXPECT_NEAR(set["frequency"].get<double>(), 20, 1e-9);
+  EXPECT_NEAR(set["dampingRatio"].get<double>(), 0.5, 1e-9);
+  const double inertia = set["stiffness"].get<double>() / 400;
+  EXPECT_NEAR(set["damping"].get<double>(), 2 * 0.5 * 20 * inertia, 1e-9);
+  EXPECT_EQ(text_of(folder_ / "base.usda"), kBase) << "no file is touched";
+  ask({{"do", "reset"}});
+  const Json table = ask({{"do", "gains"}});
+  EXPECT_NEAR(table["drives"][0]["to"]["frequency"].get<double>(), 20, 1e-3) << "it stays";
+  const Json planned = ask({{"do", "saveGains"}, {"dryRun", true}});
+  EXPECT_EQ(planned["written"], false) << planned;
+  EXPECT_NE(planned["files"][0]["diff"].get<std::string>().find("stiffness"), std::string::npos);
+  EXPECT_EQ(text_of(folder_ / "base.usda"), kBase);
+  EXPECT_TRUE(ask({{"do", "saveGains"}}).is_object());
+  EXPECT_NE(text_of(folder_ / "base.usda"), kBase);
+  EXPECT_NEAR(ask({{"do", "gains"}})["drives"][0]["frequency"].get<double>(), 20, 1e-3);
+  EXPECT_EQ(ask({{"do", "saveGains"}}), "live.nothing-to-write");
+  ask({{"do", "undo"}});
+  EXPECT_EQ(text_of(folder_ / "base.usda"), kBase);
+  for (const Json& wrong :
+       {Json{{"frequency", -1}}, Json{{"dampingRatio", 1e9}}, Json{{"stiffness", -1}},
+        Json::object(), Json{{"frequency", 1}, {"stiffness", 1}}}) {
+    Json request = {{"do", "setGains"}, {"joint", "/Arm/hinge"}, {"dof", "rotY"}};
+    request.update(wrong);
+    EXPECT_EQ(ask(request), "live.refused") << wrong;
+  }
+}
+
+TEST_F(SessionTest, EndsLongRequestsAndTakesOneOfAPage) {
+  Outbox out;
+  session_->hear(1, R"({"do": "testDrives", "test": "step", "id": 1})", out);
+  ASSERT_EQ(out.late.size(), 1u);
+  const LateAnswer late = std::move(out.late[0]);
+  EXPECT_EQ(ask({{"do", "pairs"}}), "live.busy");
+  ask({{"do", "cancel"}});
+  out = {};
+  session_->answer_late(late, late.make(), out);
+  take(out);
+  EXPECT_EQ(told_["answer"]["result"]["interrupted"], true);
+  EXPECT_TRUE(ask({{"do", "testDrives"}, {"test", "step"}}).is_object()) << "another one may come";
+  EXPECT_EQ(told_["tested"]["result"]["joint"], "/Arm/hinge");
+  EXPECT_EQ(ask({{"do", "testDrives"}, {"test", "stress"}}), "live.refused");
+  EXPECT_EQ(ask({{"do", "testDrives"}, {"test", "step"}, {"period", 1e6}}), "live.refused");
+}
+
 TEST_F(SessionTest, OpensAgainWhenAFileChanges) {
   ask({{"do", "setDrive"}, {"joint", "/Arm/hinge"}, {"position", 0.25}});
   Outbox out;

@@ -158,7 +158,22 @@ class Security(unittest.TestCase):
                          '{"do":"setDrive","joint":"/' + "a/" * 10000 + '"}',
                          '{"do":"inspect","prim":"/World{a=b}"}', '{"do":"inspect","prim":"/.."}',
                          '{"do":"step","count":1e300}', '{"do":"set","object":"/","value":""}',
-                         '{"do":"set","object":"/a.b","value":"\\u0000\\ud800"}'):
+                         '{"do":"set","object":"/a.b","value":"\\u0000\\ud800"}',
+                         '{"do":"filterPairs","filter":["/etc/passwd"]}',
+                         '{"do":"filterPairs","filter":[{"bodyA":"/x.srdf","bodyB":"/y"}]}',
+                         '{"do":"filterPairs","filter":[' + '{},' * 9000 + '{}]}',
+                         '{"do":"pairs","postures":1000000}', '{"do":"pairs","seed":-1}',
+                         '{"do":"drives","postures":1e9}',
+                         '{"do":"setLimits","limits":[{"joint":"/a","dof":[[[]]]}]}',
+                         '{"do":"setLimits","limits":[{"joint":"/World","dof":"rotZ"}]}',
+                         '{"do":"setGains","joint":"/World","dof":"rotX","frequency":1e300}',
+                         '{"do":"testDrives","test":"stress"}',
+                         '{"do":"testDrives","test":"step","period":1e9}',
+                         '{"do":"testDrives","test":"step","joints":["(a+)+$"]}',
+                         '{"do":"goToPose","pose":"/none"}',
+                         '{"do":"renamePose","pose":"/a","name":"="}',
+                         '{"do":"savePose","name":"../../x"}', '{"do":"importPoses","text":"[[[["}',
+                         '{"do":"fix","file":"/etc/passwd"}'):
                 client.send_frame(text.encode())
                 client.wait("error")
             client.done("messages")

@@ -206,9 +206,9 @@ class Messages(unittest.TestCase):
         """Sends every request once at least; -> names of those that were sent."""
         sent = set()
 
-        def do(name, **fields):
-            sent.add(name)
-            return client.done(name, **fields)
+        def do(request, **fields):
+            sent.add(request)
+            return client.done(request, **fields)
 
         scene = client.wait("scene")
         body = next(path for path in scene["bodies"])
@@ -233,6 +233,33 @@ class Messages(unittest.TestCase):
         do("messages")
         return sent, do
 
+    def exercise_panels(self, do, client, driven):
+        """The requests of panels; most of what they would write is only told."""
+        joint = driven["path"]
+        drive = {"joint": joint, "dof": driven["drives"][0]["dof"]}
+        pairs = do("pairs", postures=4000, environment=True)["pairs"]
+        pair = next(one for one in pairs if one["filtered"] == "no")
+        do("filterPairs", filter=[{name: pair[name] for name in ("bodyA", "bodyB")}], dryRun=True)
+        do("drives", postures=1)
+        do("setLimits", limits=[drive | {"maxEffort": 2}], dryRun=True)
+        do("gains")
+        do("setGains", **drive, frequency=60, dampingRatio=1)
+        do("testDrives", test="step", joints=[joint], period=0.2, amplitude=0.1)
+        do("saveGains", dryRun=True)
+        do("forgetGains")
+        do("cancel")
+        do("savePose", name="here")
+        kept = do("poses")
+        pose = kept["poses"][0]["path"]
+        do("goToPose", pose=pose, hold=True)
+        do("importPoses", text=kept["file"].replace("here", "there"), dryRun=True)
+        do("renamePose", pose=pose, name="there", dryRun=True)
+        do("removePose", pose=pose, dryRun=True)
+        do("undo")
+        do("set", object=joint + ".physics:localRot0", value="(2, 0, 0, 0)")
+        do("fix", rule="joint.rotation-length", dryRun=True)
+        do("undo")
+
     def test_tables(self):
         with tempfile.TemporaryDirectory() as folder:
             asset = pathlib.Path(folder) / "hand" / "inspire_hand.usda"
@@ -254,6 +281,7 @@ class Messages(unittest.TestCase):
                 do("clear", object=attribute)
                 told = client.ask("step", count=5000)["error"]["message"]
                 self.assertIn("from 0 to 1000", told)
+                self.exercise_panels(do, client, joint)
                 asset.write_text("no layer")
                 client.ask("set", object=attribute, value="45")
                 tables = client.done("messages")

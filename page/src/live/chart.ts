@@ -4,7 +4,7 @@
 // Signals of one unit over time, drawn on a canvas and told as numbers. The moment that is shown is a
 // line; a click shows another one.
 import { figure, h } from "../panel/dom";
-import type { History } from "./history";
+import type { Samples } from "./history";
 import type { Signal } from "./signals";
 
 const colors = ["#175fb8", "#d9822b", "#2c9f6b", "#b3261e", "#7a5fd0", "#2a8fbd", "#8a5300", "#c0486f"];
@@ -12,8 +12,10 @@ export const mostLines = colors.length;
 const mostPoints = 1500; // of a line: more are no wider than a pixel
 
 export interface ChartCalls {
-  seek: (time: number) => void;
-  remove: (signal: Signal) => void;
+  /** A click on a moment; without it nothing happens. */
+  seek?: (time: number) => void;
+  /** Without it the signals stay. */
+  remove?: (signal: Signal) => void;
 }
 
 export class Chart {
@@ -27,7 +29,7 @@ export class Chart {
   constructor(
     private readonly title: string,
     private readonly signals: Signal[],
-    private readonly history: History,
+    private readonly history: Samples,
     calls: ChartCalls,
   ) {
     this.canvas.setAttribute("aria-label", title);
@@ -35,17 +37,17 @@ export class Chart {
     signals.forEach((signal, i) => {
       const swatch = h("span", { class: "swatch" });
       swatch.style.background = colors[i % mostLines]!;
-      const remove = h(
+      const remove = calls.remove && h(
         "button",
-        { type: "button", class: "link", "aria-label": `Remove ${signal.column}`, onclick: () => calls.remove(signal) },
+        { type: "button", class: "link", "aria-label": `Remove ${signal.column}`, onclick: () => calls.remove?.(signal) },
         "\u00d7",
       );
-      this.legend.append(h("li", { title: signal.column }, swatch, h("span", {}, signal.label), " ", remove));
+      this.legend.append(h("li", { title: signal.column }, swatch, h("span", {}, signal.label), " ", remove ?? ""));
     });
     this.canvas.addEventListener("click", (event) => {
       const box = this.canvas.getBoundingClientRect();
       const [begin, end] = this.range();
-      calls.seek(begin + ((event.clientX - box.left) / box.width) * (end - begin));
+      calls.seek?.(begin + ((event.clientX - box.left) / box.width) * (end - begin));
     });
     new ResizeObserver(() => this.drawSoon()).observe(this.canvas); // it has come to be seen
   }

@@ -13,6 +13,9 @@ export interface Finding {
   prim: string | null;
   property: string | null;
   fix: string | null;
+  /** Of findings of a check: what `fix` of the session writes, and what it writes only when asked. */
+  autofix?: string | null;
+  suggestedFix?: string | null;
 }
 
 export interface LiveDof {

@@ -4,7 +4,9 @@
 // What tenon check finds, asked for when the asset was opened or has changed. Findings of one rule
 // stand together; a finding selects its prim, and its place can be copied.
 import { h, nameOf } from "../panel/dom";
-import type { Finding, SceneNotice } from "./connection";
+import type { Finding, HelloNotice, SceneNotice } from "./connection";
+import { restWhileClosed, writer } from "./pages";
+import { review } from "./review";
 import { type Session, attempt } from "./session";
 import { grouped } from "./signals";
 
@@ -25,6 +27,8 @@ export class Findings {
   private readonly page: HTMLElement;
   private readonly list = h("div");
   private readonly filter: HTMLInputElement;
+  private readonly correctAll: HTMLButtonElement;
+  private readOnly = false;
   private found: Finding[] = [];
   private title = "";
   private looked = false;
@@ -39,7 +43,11 @@ export class Findings {
       "aria-label": "Filter findings",
       oninput: () => this.update(),
     });
-    this.page.append(look, " ", this.filter, this.list);
+    this.correctAll = writer(session, "Correct all...", () => void this.correct({}));
+    this.correctAll.disabled = true;
+    session.connection.on<HelloNotice>("hello", (notice) => (this.readOnly = notice.readOnly));
+    this.page.append(look, " ", this.correctAll, this.filter, this.list);
+    restWhileClosed(session, this.page);
     let changed = false;
     session.connection.on<SceneNotice>("scene", (scene) => {
       if (scene.why !== "reset" && scene.why !== "engine") {
@@ -74,7 +82,13 @@ export class Findings {
     this.update();
   }
 
+  /** Corrects what has a safe fix; of one finding also what is only suggested. */
+  private async correct(fields: Record<string, unknown>): Promise<void> {
+    await review(this.session, "fix", fields);
+  }
+
   private update(): void {
+    this.correctAll.disabled = !this.found.some((one) => one.autofix);
     const words = this.filter.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
     const shown = this.found.filter((one) => {
       const text = `${one.severity} ${one.rule ?? ""} ${one.message} ${one.prim ?? ""}`.toLowerCase();
@@ -129,6 +143,14 @@ export class Findings {
     }
     if (finding.fix) {
       item.append(h("div", {}, `To mend it: ${finding.fix}.`));
+    }
+    const correction = finding.autofix ?? finding.suggestedFix;
+    if (correction && !this.readOnly) {
+      const { rule, prim: of, property, file, line } = finding;
+      const fields = { rule, prim: of, property, file, line, suggested: !finding.autofix };
+      const name = `Correct ${finding.rule ?? ""}${of ? ` of ${nameOf(of)}` : ""}`;
+      const act = () => void this.correct(fields);
+      item.append(h("div", {}, h("button", { type: "button", title: correction, "aria-label": name, onclick: act }, "Correct...")));
     }
     return item;
   }

@@ -107,6 +107,11 @@ interface Frame extends Timed {
   poses: Float32Array;
 }
 
+/** Where poses of a moment are looked up. */
+export type Moments = Pick<History, "frameAt">;
+/** Samples over time, as charts draw them. */
+export type Samples = Moments & Pick<History, "samples" | "sample" | "shown">;
+
 const overhead = 200; // bytes of an item beside its numbers
 const slack = 1e-6; // [s] by which times in frames, which have fewer digits, may be off
 

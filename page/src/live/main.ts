@@ -18,13 +18,17 @@ import {
   type StateNotice,
 } from "./connection";
 import { Details } from "./details";
+import { Drives } from "./drives";
 import { EventList } from "./event_list";
 import { Events } from "./events";
 import { Findings } from "./findings";
+import { Gains } from "./gains";
 import { History } from "./history";
 import { Messages } from "./messages";
 import { Move } from "./move";
+import { Pairs } from "./pairs";
 import { Plots } from "./plots";
+import { Poses } from "./poses";
 import { Prims } from "./prims";
 import { Pull } from "./pull";
 import { Save } from "./save";
@@ -134,6 +138,10 @@ function main(): void {
   panel.foot.append(messages.element);
   new Move(session);
   new Findings(session);
+  new Pairs(session);
+  new Drives(session);
+  new Gains(session);
+  new Poses(session);
   new Details(session);
   new Pull(session);
   new Prims(session);

@@ -39,7 +39,7 @@ class Sender {
 }
 
 /** What a slider stands for: the unit that people read, and how many of it are one of SI. */
-interface Scale {
+export interface Scale {
   unit: string;
   factor: number;
 }
@@ -71,7 +71,7 @@ interface Row {
 }
 
 /** A slider and a field for the same number. */
-class Slider {
+export class Slider {
   readonly element: HTMLElement;
   readonly input: HTMLInputElement;
   private readonly field: HTMLInputElement;
@@ -98,7 +98,7 @@ class Slider {
       step: "any",
       value: rounded(scale, value),
       disabled,
-      "aria-label": `${what} in ${scale.unit}`,
+      "aria-label": scale.unit ? `${what} in ${scale.unit}` : `${what} as a number`,
       onchange: () => {
         const wanted = Number(this.field.value) / scale.factor;
         if (this.field.value !== "" && Number.isFinite(wanted)) {

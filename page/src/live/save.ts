@@ -14,7 +14,7 @@ import type { Timeline } from "./timeline";
 const framesPerSecond = 30;
 const lastFrame = 500; // ms that the last picture stays
 
-function download(data: Blob, name: string): void {
+export function download(data: Blob, name: string): void {
   const link = h("a", { href: URL.createObjectURL(data), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);

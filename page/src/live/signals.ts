@@ -5,7 +5,7 @@
 // `tenon sim` (docs/simulation.md), lengths in metres, angles in degrees.
 import { nameOf } from "../panel/dom";
 import type { LiveDof, SceneNotice } from "./connection";
-import type { History, Layout, Sample } from "./history";
+import type { History, Layout, Moments, Sample } from "./history";
 
 const degrees = 180 / Math.PI;
 
@@ -19,7 +19,7 @@ export interface Signal {
   /** In few words. */
   label: string;
   unit: string;
-  of: (sample: Sample, history: History) => number;
+  of: (sample: Sample, history: Moments) => number;
 }
 
 const at = (index: number, scale = 1) => (sample: Sample) => (sample.values[index] ?? NaN) * scale;

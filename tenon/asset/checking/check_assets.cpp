@@ -136,6 +136,9 @@ class AssetsCheck {
       if (options_.suggested && !finding.fix) {
         finding.fix = finding.suggestion;
       }
+      if (options_.wanted && !options_.wanted(finding)) {
+        finding.fix.reset();
+      }
     }
     TENON_TRY(std::vector<EditedFile> files,
               corrected_files(checked->findings, options_.check.open.files));

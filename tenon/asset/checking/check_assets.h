@@ -17,6 +17,8 @@ struct CheckAssetsOptions {
   CheckOptions check;
   bool correct = false;    ///< what has a safe fix
   bool suggested = false;  ///< and what has a suggestion
+  /// Which of the findings are corrected; empty: all.
+  Function<bool(const check::Finding& finding)> wanted;
   /// Writes what was corrected of one asset; the asset is then checked again. Empty: nothing is
   /// written, and the findings are those before.
   Function<Result<void>(const std::string& asset, const std::vector<EditedFile>& files)> write;

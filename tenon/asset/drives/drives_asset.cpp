@@ -158,6 +158,42 @@ Result<void> add_specs(const DrivesOptions& options, const stage::Stage& stage,
   return {};
 }
 
+Result<void> add_limits(const DrivesOptions& options, DrivesOfAsset& result) {
+  for (const WantedLimits& wanted : options.limits) {
+    const auto drive = std::find_if(
+        result.drives.begin(), result.drives.end(),
+        [&](const DriveDemand& one) { return one.joint == wanted.joint && one.dof == wanted.dof; });
+    if (drive == result.drives.end()) {
+      return Error(ErrorCode::NotFound, "<" + wanted.joint.str() + "> has no drive along " +
+                                            std::string(dof_name(wanted.dof)))
+          .with_prim(wanted.joint.str())
+          .with_rule("drives.no-joint")
+          .with_fix("name a drive that the table lists");
+    }
+    drive->new_effort = wanted.effort ? wanted.effort : drive->new_effort;
+    drive->new_speed = wanted.speed ? wanted.speed : drive->new_speed;
+  }
+  return {};
+}
+
+/// Looks at the start and at the drawn postures.
+Result<void> look_at_postures(const dynamics::Multibody& multibody, const DrivesOptions& options,
+                              Demands& demands) {
+  if (demands.drives.empty()) {
+    return {};
+  }
+  const dynamics::DrawnPostures postures(multibody);
+  look_at(multibody, postures.start(), demands);
+  for (std::size_t i = 0; i < options.samples; ++i) {
+    if (options.go_on && !options.go_on(i, options.samples)) {
+      return Error(ErrorCode::Invalid, "the look at postures was ended before its end")
+          .with_rule("drives.ended");
+    }
+    look_at(multibody, postures.draw(options.seed, i), demands);
+  }
+  return {};
+}
+
 }  // namespace
 
 bool DriveDemand::is_too_weak() const { return weight > new_effort.value_or(max_effort); }
@@ -170,18 +206,13 @@ Result<DrivesOfAsset> drives_of_asset(const std::string& path, const DrivesOptio
       physics::read_physics(stage, read_options(), diagnostics));
   const dynamics::Multibody multibody(*result.scene);
   Demands demands = demands_of(multibody);
-  if (!demands.drives.empty()) {
-    const dynamics::DrawnPostures postures(multibody);
-    look_at(multibody, postures.start(), demands);
-    for (std::size_t i = 0; i < options.samples; ++i) {
-      look_at(multibody, postures.draw(options.seed, i), demands);
-    }
-  }
+  TENON_CHECK(look_at_postures(multibody, options, demands));
   result.drives = std::move(demands.drives);
   result.postures = options.samples + 1;
   add_followers(*result.scene, result);
   TENON_CHECK(add_specs(options, stage, result));
-  if (!options.specs.empty()) {
+  TENON_CHECK(add_limits(options, result));
+  if (!options.specs.empty() || !options.limits.empty()) {
     TENON_TRY(result.edits, limit_edits(path, options.open, result));
   }
   if (!options.mimic.empty()) {

@@ -11,6 +11,7 @@
 
 #include "tenon/asset/edit_asset.h"
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/function.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
 #include "tenon/open_stage.h"
@@ -19,11 +20,22 @@
 /// What the motors of an asset can do, and what they need.
 namespace tenon {
 
+/// Limits that a driven degree of freedom is to have. [N m or N, rad/s or m/s]
+struct WantedLimits {
+  Path joint;
+  scene::Dof dof = scene::Dof::RotX;
+  std::optional<double> effort;  ///< not given: as is
+  std::optional<double> speed;
+};
+
 struct DrivesOptions {
   OpenOptions open;
   std::size_t samples = 0;  ///< postures drawn within the limits of the joints, beside the start
   std::uint64_t seed = 0;
-  std::string specs;  ///< a file of motor_specs.h; empty: none
+  std::string specs;                 ///< a file of motor_specs.h; empty: none
+  std::vector<WantedLimits> limits;  ///< count over those of `specs`
+  /// Called after each posture with how many are done; false ends the search. May be empty.
+  Function<bool(std::size_t done, std::size_t of)> go_on;
   std::string
       mimic;  ///< "rigid", or "FREQUENCY,RATIO" as PhysxMimicJointAPI has them; empty: as is
 };
@@ -71,7 +83,8 @@ struct DrivesOfAsset {
 /// Opens the asset and looks. Errors: those of tenon::open and read_motor_specs; NotFound
 /// (drives.no-joint) for a pattern that means no driven joint, with its line, and (drives.no-tip)
 /// for a tip that is no prim; Invalid (drives.specs) where keys contradict each other or do not fit
-/// the joint.
+/// the joint, (drives.ended) where `go_on` ends it; NotFound (drives.no-joint) for limits of a
+/// joint that is not driven so.
 Result<DrivesOfAsset> drives_of_asset(const std::string& path, const DrivesOptions& options,
                                       Diagnostics& diagnostics);
 

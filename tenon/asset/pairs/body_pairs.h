@@ -70,6 +70,8 @@ struct BodyPairsOptions {
   std::size_t threads = 0;   ///< 0: as many as this process may use
   /// Called now and then with how many postures are done.
   Function<void(std::size_t done, std::size_t of)> progress;
+  /// Asked at each posture, by all threads; true ends the search. Empty: it goes on to its end.
+  Function<bool()> is_over;
 };
 
 struct BodyPairs {
@@ -90,7 +92,8 @@ struct BodyPairs {
 /// Depths below this are no contact [m].
 inline constexpr double kTouchingDepth = 1e-6;
 /// On MuJoCo's shapes (engines/mujoco/overlap/penetrations.h); the same for any number of threads.
-/// Errors: Missing (engine.missing) without MuJoCo, those of Penetrations, Limit (pairs.too-many).
+/// Errors: Missing (engine.missing) without MuJoCo, those of Penetrations, Limit (pairs.too-many),
+/// Invalid (pairs.ended) where `is_over` says so.
 Result<BodyPairs> body_pairs(const scene::PhysicsScene& scene,
                              const physics::Provenance& provenance, const BodyPairsOptions& options,
                              Diagnostics& diagnostics);

@@ -125,6 +125,12 @@ class Draw {
   /// `is_own`: on the thread that waits for the others, and may report.
   void run(bool is_own, Stretch& stretch) {
     for (std::uint64_t i = stretch.begin; i < stretch.end && !failed_; ++i) {
+      if (options_.is_over && options_.is_over()) {
+        stretch.failure = Error(ErrorCode::Invalid, "the search for pairs was ended before its end")
+                              .with_rule("pairs.ended");
+        failed_ = true;
+        return;
+      }
       const dynamics::Posture posture = drawn_.draw(options_.seed, i);
       if (!drawn_.is_possible(posture)) {
         ++stretch.skipped;

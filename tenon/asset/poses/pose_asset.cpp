@@ -33,7 +33,6 @@ Result<dynamics::Posture> posture_of_state(const std::string& path, const OpenOp
   options.state_in = request.state_in;
   options.duration = 0;
   TENON_TRY(const SimulatedAsset simulated, simulate_asset(path, options, diagnostics));
-  dynamics::Posture posture = multibody.start();
   const scene::PhysicsScene& scene = multibody.scene();
   const bake::StateRecording& recording = simulated.run.recording;
   if (recording.frame_count() == 0 || recording.body_count != scene.bodies.size()) {
@@ -41,17 +40,11 @@ Result<dynamics::Posture> posture_of_state(const std::string& path, const OpenOp
         .in_file(request.state_in)
         .with_rule("pose.state");
   }
-  std::vector<std::vector<double>> joints = posture.joints;
-  const auto pose_of = [&](const std::optional<scene::Index>& body) {
-    return body ? recording.body(0, *body).pose : Pose{};
-  };
-  for (scene::Index j = 0; j < scene.joints.size(); ++j) {
-    const scene::Joint& joint = scene.joints[j];
-    joints[j] =
-        scene::coordinates_at(multibody.dofs()[j], inverse(pose_of(joint.body0) * joint.frame0) *
-                                                       (pose_of(joint.body1) * joint.frame1));
+  std::vector<Pose> bodies;
+  for (scene::Index i = 0; i < scene.bodies.size(); ++i) {
+    bodies.push_back(recording.body(0, i).pose);
   }
-  return multibody.moved(posture, std::move(joints));
+  return posture_of_bodies(multibody, bodies);
 }
 
 Result<std::vector<bool>> held_joints(const scene::PhysicsScene& scene,
@@ -122,6 +115,23 @@ Result<PoseOfAsset> pose_of_asset(const std::string& path, const OpenOptions& op
   }
   TENON_CHECK(reach_frames(request, pose));
   return pose;
+}
+
+dynamics::Posture posture_of_bodies(const dynamics::Multibody& multibody,
+                                    const std::vector<Pose>& bodies) {
+  const dynamics::Posture start = multibody.start();
+  const scene::PhysicsScene& scene = multibody.scene();
+  std::vector<std::vector<double>> joints = start.joints;
+  const auto pose_of = [&](const std::optional<scene::Index>& body) {
+    return body ? bodies[*body] : Pose{};
+  };
+  for (scene::Index j = 0; j < scene.joints.size(); ++j) {
+    const scene::Joint& joint = scene.joints[j];
+    joints[j] =
+        scene::coordinates_at(multibody.dofs()[j], inverse(pose_of(joint.body0) * joint.frame0) *
+                                                       (pose_of(joint.body1) * joint.frame1));
+  }
+  return multibody.moved(start, std::move(joints));
 }
 
 std::string reach_obstacle_text(const PoseOfAsset& pose) {

@@ -60,6 +60,11 @@ Result<PoseOfAsset> pose_of_asset(const std::string& path, const OpenOptions& op
                                   const physics::Readings& readings, const PoseRequest& request,
                                   Diagnostics& diagnostics);
 
+/// The joints where the bodies have them, `bodies` (body_count) in world axes; roots stay as the
+/// asset has them, since named poses are of joints.
+dynamics::Posture posture_of_bodies(const dynamics::Multibody& multibody,
+                                    const std::vector<Pose>& bodies);
+
 /// Why a frame was not reached, in a sentence; empty where it was.
 std::string reach_obstacle_text(const PoseOfAsset& pose);
 

@@ -211,4 +211,9 @@ Result<std::vector<physics::NamedPose>> read_poses_file(const PoseOfAsset& pose,
   return PosesReader(pose, robot, file).read(answers::parsed(contents->text()));
 }
 
+Result<std::vector<physics::NamedPose>> poses_of_text(const PoseOfAsset& pose, const Path& robot,
+                                                      std::string_view text) {
+  return PosesReader(pose, robot, "").read(answers::parsed(text));
+}
+
 }  // namespace tenon

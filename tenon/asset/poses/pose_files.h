@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tenon/asset/poses/pose_asset.h"
@@ -23,5 +24,8 @@ std::string poses_file(const PoseOfAsset& pose);
 Result<std::vector<physics::NamedPose>> read_poses_file(const PoseOfAsset& pose, const Path& robot,
                                                         const std::string& file,
                                                         const bytes::Files& files);
+/// The same of the text of such a file. Errors: those of its contents.
+Result<std::vector<physics::NamedPose>> poses_of_text(const PoseOfAsset& pose, const Path& robot,
+                                                      std::string_view text);
 
 }  // namespace tenon
