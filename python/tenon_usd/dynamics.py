@@ -223,7 +223,10 @@ def _pose(pose: Pose | None) -> tuple[list[str], list[tuple[str, float]]]:
     for joint, value in pose.items():
         if not isinstance(joint, str):
             raise TypeError(f"pose names a joint by {joint!r}; expected its path or name")
-        if isinstance(value, str) or not isinstance(value, SupportsFloat):
+        # A check of a protocol takes longer than all the rest.
+        if type(value) is not float and (
+            isinstance(value, str) or not isinstance(value, SupportsFloat)
+        ):
             raise TypeError(f"pose of {joint!r} is {value!r}; expected a number in rad or m")
         values.append((joint, float(value)))
     return [], values

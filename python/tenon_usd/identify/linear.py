@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is linear in a log with efforts: the law of a drive gives its gains, the inverse dynamics
+give armature, damping and friction. Least squares within bounds (scipy.optimize.lsq_linear).
+
+    effort = stiffness (command - position) + driveDamping (command velocity - velocity)
+    effort = (M a + bias - gravity) + armature a + damping v + friction sign(v)
+
+Speeds and accelerations are derivatives of smoothed positions. It is where the fit by simulation
+begins, not its result: noise of accelerations makes these numbers too small.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..dynamics import Dynamics
+from ..errors import Error
+from .model import Held, Model, has
+from .parameters import Parameter
+
+Array = npt.NDArray[np.float64]
+#: Samples of the inverse dynamics.
+MAX_SAMPLES = 400
+#: Delays that are tried, in steps of the model.
+MAX_DELAYS = 60
+
+
+def smoothed(times: Array, values: Array, half: float) -> tuple[Array, Array, Array]:
+    """Position, velocity and acceleration of one joint at equal times, by parabolas through the
+    samples within `half` seconds."""
+    signal: Any = importlib.import_module("scipy.signal")
+    step = float(np.median(np.diff(times)))
+    even = np.arange(times[0], times[-1], step)
+    own = np.interp(even, times, values)
+    width = max(5, 2 * round(half / step) + 1)
+    if even.size <= width:
+        return (values, np.gradient(values, times),
+                np.gradient(np.gradient(values, times), times))
+    made = [signal.savgol_filter(own, width, 3, deriv=order, delta=step) for order in range(3)]
+    place, speed, turn = (np.interp(times, even, each) for each in made)
+    return place, speed, turn
+
+
+def linear_start(model: Model, parameters: list[Parameter]) -> Array:
+    """A start for every parameter, shape (P,): what efforts tell, else its own."""
+    values = np.array([each.start for each in parameters])
+    log = model.log
+    if log.position is None or log.effort is None or len(log) < 20:
+        return values
+    optimize: Any = importlib.import_module("scipy.optimize")
+    moves = [smoothed(log.times, log.position[:, j], 3 * log.step + 0.01)
+             if has(log.position, j) else None for j in range(len(log.joints))]
+    _gains(model, parameters, values, moves, optimize)
+    _plants(model, parameters, values, moves, optimize)
+    return values
+
+
+def _of(parameters: list[Parameter], family: str, joint: str) -> int | None:
+    """The number of a parameter of one joint alone."""
+    for at, each in enumerate(parameters):
+        if each.family == family and each.paths == (joint,):
+            return at
+    return None
+
+
+def _bounded(optimize: Any, matrix: Array, wanted: Array, low: Array, high: Array) -> Array:
+    size = np.sqrt((matrix ** 2).sum(axis=0))
+    size = np.where(size > 0, size, 1.0)
+    room = np.where(high > low, high, low + 1e-12)
+    done = optimize.lsq_linear(matrix / size, wanted, bounds=(low * size, room * size))
+    return np.asarray(done.x) / size
+
+
+def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],
+           optimize: Any) -> None:
+    """Gains of drives that follow positions, at the delay that fits best."""
+    log = model.log
+    assert log.effort is not None
+    shared = [at for at, each in enumerate(parameters) if each.family == "delay"]
+    delays = (np.arange(MAX_DELAYS) - MAX_DELAYS // 10) * model.step if shared else np.zeros(1)
+    errors = np.zeros(len(delays))
+    found: dict[tuple[int, int], tuple[Array, list[int]]] = {}
+    for column, _, position, _ in model._aimed:
+        joint = log.joints[column]
+        own = [_of(parameters, family, joint) for family in ("stiffness", "driveDamping")]
+        if position is None or moves[column] is None or not has(log.effort, column):
+            continue
+        most = model.plant.drives[joint].max_force
+        good = np.isfinite(log.effort[:, column])
+        good &= np.abs(log.effort[:, column]) < 0.98 * most
+        if good.sum() < 20:
+            continue
+        place, speed, _ = moves[column]
+        drive = model.plant.drives[joint]
+        for at, delay in enumerate(delays):
+            matrix, wanted, mine = _drive_rows(position, log.times, delay, place, speed,
+                                               log.effort[:, column], own, drive)
+            if mine:
+                low = np.array([parameters[i].low for i in mine])
+                high = np.array([parameters[i].high for i in mine])
+                made = _bounded(optimize, matrix[good], wanted[good], low, high)
+                wanted = wanted - matrix @ made
+                found[column, at] = (made, mine)
+            errors[at] += float((wanted[good] ** 2).sum()) / max(
+                float(np.var(log.effort[good, column])), 1e-12)
+    if not errors.any():
+        return
+    best = int(np.argmin(errors))
+    for (_, at), (made, mine) in found.items():
+        if at == best:
+            values[mine] = made
+    for each in shared:
+        values[each] = min(max(delays[best], parameters[each].low), parameters[each].high)
+
+
+def _drive_rows(position: Held, times: Array, delay: float, place: Array, speed: Array,
+                effort: Array, own: list[int | None], drive: Any) -> tuple[Array, Array, list[int]]:
+    """Columns of the gains that are asked for, what they have to explain, and their numbers."""
+    command = position.at(times - delay - 1e-9)
+    columns = [command - place, -speed]
+    known = [drive.stiffness, drive.damping]
+    wanted = effort.copy()
+    mine, kept = [], []
+    for column, number, value in zip(columns, own, known):
+        if number is None:
+            wanted = wanted - value * column
+        else:
+            mine.append(number)
+            kept.append(column)
+    return np.stack(kept, axis=1) if kept else np.zeros((len(times), 0)), wanted, mine
+
+
+def _plants(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],
+            optimize: Any) -> None:
+    """Armature, damping and friction of joints whose effort is in the log."""
+    log = model.log
+    assert log.effort is not None
+    wanted = [each for each in parameters if each.family in ("armature", "damping", "friction")]
+    if not wanted or any(move is None for move in moves):
+        return
+    every = max(1, len(log) // MAX_SAMPLES)
+    at = np.arange(3, len(log) - 3, every)
+    needed = _inverse(model, moves, at)
+    if needed is None:
+        return
+    for column, joint in enumerate(log.joints):
+        own = [(family, _of(parameters, family, joint))
+               for family in ("armature", "damping", "friction")]
+        mine = [number for _, number in own if number is not None]
+        if not mine or not has(log.effort, column):
+            continue
+        _, speed, turn = (each[at] for each in moves[column])
+        # Where a joint hardly moves the sign of its speed is not known.
+        still = 0.05 * float(np.max(np.abs(speed)) or 1.0)
+        columns = {"armature": turn, "damping": speed, "friction": np.tanh(speed / still)}
+        rest = log.effort[at, column] - needed[:, column]
+        plant = model.plant.joints[joint]
+        kept = []
+        for family, number in own:
+            if number is None:
+                rest = rest - getattr(plant, family) * columns[family]
+            else:
+                kept.append(columns[family])
+        good = np.isfinite(rest)
+        if good.sum() < 3 * len(mine):
+            continue
+        low = np.array([parameters[i].low for i in mine])
+        high = np.array([parameters[i].high for i in mine])
+        values[mine] = _bounded(optimize, np.stack(kept, axis=1)[good], rest[good], low, high)
+
+
+def _inverse(model: Model, moves: list[Any], at: npt.NDArray[np.int64]) -> Array | None:
+    """M a + bias - gravity without armature at samples, shape (samples, N); None where the asset
+    has coordinates that are not in the log."""
+    log, scene = model.log, model.scene
+    try:
+        home = Dynamics(scene)
+        places = [home.coordinate(joint) for joint in log.joints]
+        if len(places) != len(home.coordinates):
+            return None
+        armature = np.zeros(len(places))
+        for joint, place in zip(log.joints, places):
+            armature[place] = model.plant.joints[joint].armature if joint in model.plant.joints \
+                else 0.0
+        made = np.empty((len(at), len(places)))
+        for row, sample in enumerate(at):
+            posed = home.moved({joint: float(moves[j][0][sample])
+                                for j, joint in enumerate(log.joints)})
+            speed, turn = np.zeros(len(places)), np.zeros(len(places))
+            for j, place in enumerate(places):
+                speed[place], turn[place] = moves[j][1][sample], moves[j][2][sample]
+            force = (posed.mass_matrix() @ turn - armature * turn + posed.bias_forces(speed)
+                     - posed.gravity_forces())
+            made[row] = force[places]
+    except Error:
+        return None
+    return made

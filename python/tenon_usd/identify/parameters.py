@@ -1,0 +1,360 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What can be identified: families of parameters, and rows that say which joints, within which
+bounds and with which prior.
+
+    rows = [row_from_text("friction:.*finger.*=0..2"), *rows_from_file("parameters.toml")]
+    parameters = select(rows, world, log)
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import tomllib
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .._lists import no_such
+from .._toml import Fault, FileError, Reader, is_number, rows_of
+from ..actuators import fitting
+from ..errors import InvalidError, NotFoundError
+from ..world import World
+from .log import Log
+
+MAX_FILE_BYTES = 1 << 20
+MAX_PARAMETERS = 400
+
+
+@dataclasses.dataclass(frozen=True)
+class Family:
+    """One kind of parameter. `of` is what has it; `sets` the number of World.set_parameter() that
+    it is, empty where the model of the log has it; `motion` the motion that tells it."""
+
+    of: str
+    unit: str
+    sets: str
+    low: float
+    high: float
+    motion: str
+
+
+_GAINS = "steps and fast sines of the command, so that the joint is away from it"
+#: What can be identified, by name.
+FAMILIES = {
+    "friction": Family("joint", "N m or N", "jointFriction", 0, math.inf,
+                       "slow motion that turns back several times, and the effort in the log"),
+    "damping": Family("joint", "N m s/rad or N s/m", "jointDamping", 0, math.inf,
+                      "constant speeds, slow and fast ones"),
+    "armature": Family("joint", "kg m^2 or kg", "jointArmature", 0, math.inf,
+                       "fast accelerations, such as a chirp"),
+    "stiffness": Family("drive", "N m/rad or N/m", "driveStiffness", 0, math.inf, _GAINS),
+    "driveDamping": Family("drive", "N m s/rad or N s/m", "driveDamping", 0, math.inf, _GAINS),
+    "maxForce": Family("drive", "N m or N", "driveMaxForce", 1e-9, math.inf,
+                       "commands that the drive can only follow with all its effort"),
+    "mass": Family("body", "kg", "bodyMass", 1e-6, math.inf,
+                   "postures in which gravity pulls differently, and the effort in the log"),
+    "contactFriction": Family("collider", "1", "colliderFriction", 0, 10,
+                              "motion in which the shape slides"),
+    "delay": Family("drive", "s", "", -0.05, 0.5, "steps and fast sines of the command"),
+    "offset": Family("joint", "rad or m", "", -math.inf, math.inf,
+                     "postures in which gravity pulls differently, and the effort in the log"),
+    "effortScale": Family("joint", "1", "", 1e-3, 1e3,
+                          "effort in the log, and a known mass that is lifted or accelerated"),
+}
+#: Names for several families.
+GROUPS = {"gains": ("stiffness", "driveDamping")}
+#: What logs could tell and no engine here takes while it runs, with the reason.
+UNSUPPORTED = {
+    "stribeck": "engines have one friction for rest and motion; identify friction and damping",
+    "inertia": "engines change masses while they run, and inertia with them; identify mass",
+    "centerOfMass": "engines change masses while they run, not where they are; identify mass",
+    "mimicRatio": "ratios of mimics are part of the model; set them and identify again",
+    "velocityLimit": "limits of velocity are part of the model; set them and identify again",
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """What was asked for: `family` of everything that `pattern` means; None: as the family has it.
+    `prior` and `deviation` are what is known of it; `tied`: one number for all of them."""
+
+    family: str
+    pattern: str = ".*"
+    low: float | None = None
+    high: float | None = None
+    start: float | None = None
+    prior: float | None = None
+    deviation: float | None = None
+    tied: bool | None = None
+    line: int = 0
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """One number [SI, rad] to identify, of one object or shared by several."""
+
+    family: str
+    paths: tuple[str, ...]
+    nominal: float
+    """What the asset says."""
+    start: float
+    low: float
+    high: float
+    scale: float
+    """What counts as a large change of it."""
+    prior: float | None = None
+    deviation: float | None = None
+
+    @property
+    def name(self) -> str:
+        """"friction:/arm/elbow"."""
+        more = f" (+{len(self.paths) - 1})" if len(self.paths) > 1 else ""
+        return f"{self.family}:{self.paths[0]}{more}"
+
+    @property
+    def unit(self) -> str:
+        return FAMILIES[self.family].unit
+
+
+class ParametersError(FileError):
+    """Rows that cannot be used: a Fault for each thing that is wrong."""
+
+
+def _families(name: str) -> tuple[str, ...]:
+    """Raises NotFoundError, with the reason where there is one."""
+    if name in GROUPS:
+        return GROUPS[name]
+    if name in FAMILIES:
+        return (name,)
+    if name in UNSUPPORTED:
+        raise NotFoundError(f"{name} cannot be identified: {UNSUPPORTED[name]}")
+    raise NotFoundError(f"family: {no_such(name, [*FAMILIES, *GROUPS])}")
+
+
+def _numbers(text: str, names: Sequence[str], whole: str) -> list[float]:
+    parts = text.split(".." if ".." in text else ",")
+    try:
+        values = [float(part) for part in parts]
+    except ValueError:
+        values = []
+    if len(values) != len(names) or not all(map(math.isfinite, values)):
+        raise InvalidError(f"{whole!r}: expected {' and '.join(names)} as two numbers")
+    return values
+
+
+def rows_from_text(text: str) -> list[Row]:
+    """"FAMILY", "FAMILY:REGEX", "FAMILY:REGEX=LOW..HIGH": rows, one for each family that it names.
+    Raises NotFoundError and InvalidError."""
+    head, equals, numbers = text.partition("=")
+    name, _, pattern = head.partition(":")
+    low = high = None
+    if equals:
+        low, high = _numbers(numbers, ("the least", "the largest"), text)
+        if low > high:
+            raise InvalidError(f"{text!r}: the first number is not above the second")
+    return [Row(family, pattern or ".*", low, high) for family in _families(name)]
+
+
+def prior_from_text(text: str) -> list[Row]:
+    """"FAMILY:REGEX=VALUE,DEVIATION": what is known of them. Raises NotFoundError and
+    InvalidError."""
+    head, equals, numbers = text.partition("=")
+    name, _, pattern = head.partition(":")
+    if not equals:
+        raise InvalidError(f"{text!r}: expected FAMILY:REGEX=VALUE,DEVIATION")
+    value, deviation = _numbers(numbers, ("the value", "its standard deviation"), text)
+    if deviation < 0:
+        raise InvalidError(f"{text!r}: a deviation is not below 0")
+    return [Row(family, pattern or ".*", prior=value, deviation=deviation)
+            for family in _families(name)]
+
+
+_KEYS = ("family", "joints", "low", "high", "start", "prior", "deviation", "tied")
+
+
+def rows_from_file(path: str) -> list[Row]:
+    """The tables [[parameter]] of a TOML file. Errors: ParametersError, with lines; OSError."""
+    if os.stat(path).st_size > MAX_FILE_BYTES:
+        raise ParametersError(path, [Fault("", 0, f"is larger than {MAX_FILE_BYTES} bytes")])
+    with open(path, "rb") as file:
+        contents = file.read()
+    try:
+        text = contents.decode()
+        table = tomllib.loads(text)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ParametersError(path, [Fault("", 0, str(error))]) from error
+    reader = Reader(text)
+    reader.unknown(table, ("parameter",))
+    rows: list[Row] = []
+    for number, each in enumerate(rows_of(reader, table, "parameter"), 1):
+        reader.at("parameter", number)
+        rows += _file_row(reader, dict(each))
+    if reader.faults:
+        raise ParametersError(path, reader.faults)
+    return rows
+
+
+def _file_row(reader: Reader, table: dict[str, Any]) -> list[Row]:
+    reader.unknown(table, _KEYS)
+    name = reader.text(table, "family", "") or ""
+    pattern = reader.text(table, "joints", ".*") or ".*"
+    values: dict[str, float | None] = {}
+    for key in ("low", "high", "start", "prior", "deviation"):
+        values[key] = None
+        if key in table:
+            if is_number(table[key]):
+                values[key] = float(table[key])
+            else:
+                reader.fault(f"{key} is {table[key]!r}; expected a number", key)
+    tied = table.get("tied")
+    if tied is not None and not isinstance(tied, bool):
+        reader.fault(f"tied is {tied!r}; expected true or false", "tied")
+        tied = None
+    low, high, deviation = values["low"], values["high"], values["deviation"]
+    if low is not None and high is not None and low > high:
+        reader.fault(f"low is {low:g} and high {high:g}", "low")
+    if (values["prior"] is None) != (deviation is None):
+        reader.fault("a prior has both prior and deviation", "prior")
+    elif deviation is not None and deviation < 0:
+        reader.fault("a deviation is not below 0", "deviation")
+    try:
+        return [Row(family, pattern, **values, tied=tied, line=reader.line)
+                for family in _families(name)]
+    except NotFoundError as error:
+        reader.fault(str(error), "family")
+        return []
+
+
+# ---- what the rows mean in an asset
+
+
+@dataclasses.dataclass(frozen=True)
+class Plant:
+    """What an asset says about the objects that have parameters [SI, rad]."""
+
+    joints: dict[str, Any]
+    drives: dict[str, Any]
+    bodies: dict[str, Any]
+    colliders: dict[str, float]
+    inertia: dict[str, float]
+    """What a joint has to accelerate [kg m^2 or kg]."""
+
+
+def plant_of(world: World, inertia: dict[str, float]) -> Plant:
+    scene = world.scene
+    joints = {joint.path: joint for joint in scene.joints if joint.path in world.joint_names}
+    drives = {path: joint.drives[0] for path, joint in joints.items()
+              if joint.drives and path in world.drive_names}
+    colliders = {}
+    for collider in scene.colliders:
+        material = scene.unbound if collider.material is None else scene.materials[
+            collider.material]
+        colliders[str(collider.path)] = float(material.dynamic_friction)
+    bodies = {body.path: body for body in scene.bodies if not body.kinematic and body.mass > 0}
+    return Plant(joints, drives, bodies, colliders, inertia)
+
+
+def _names(plant: Plant, log: Log, of: str) -> list[str]:
+    if of == "body":
+        return list(plant.bodies)
+    if of == "collider":
+        return list(plant.colliders)
+    return [name for name in log.joints if name in (plant.drives if of == "drive"
+                                                    else plant.joints)]
+
+
+def _nominal(plant: Plant, family: str, path: str) -> float:
+    if family in ("friction", "damping", "armature"):
+        return float(getattr(plant.joints[path], family))
+    if family in ("stiffness", "driveDamping", "maxForce"):
+        drive = plant.drives[path]
+        return float({"stiffness": drive.stiffness, "driveDamping": drive.damping,
+                      "maxForce": drive.max_force}[family])
+    if family == "mass":
+        return float(plant.bodies[path].mass)
+    if family == "contactFriction":
+        return plant.colliders[path]
+    return 1.0 if family == "effortScale" else 0.0
+
+
+def _scale(plant: Plant, log: Log, family: str, path: str, nominal: float) -> float:
+    """A large change of the number: its own size, or what makes a tenth of the efforts."""
+    if family == "delay":
+        return max(log.step, 1e-3)
+    if family == "offset":
+        return 0.02
+    if family not in ("friction", "damping", "armature", "stiffness", "driveDamping", "maxForce"):
+        return max(nominal, 0.1)
+    at = log.joints.index(path)
+    inertia = plant.inertia.get(path, 0.0) or 1e-3
+    speed = _size(log.velocity, at) or _size(_slope(log), at) or 1.0
+    effort = _size(log.effort, at) or _size(log.command_effort, at)
+    if not effort:
+        turn = _size(_slope(log, 2), at) or 1.0
+        effort = inertia * turn
+    typical = {"friction": 0.1 * effort, "damping": 0.1 * effort / speed,
+               "armature": 0.1 * inertia, "stiffness": effort / max(_size(log.position, at), 1e-3),
+               "driveDamping": 0.1 * effort / speed, "maxForce": effort}[family]
+    return float(max(nominal if math.isfinite(nominal) else 0.0, typical, 1e-9))
+
+
+def _slope(log: Log, times: int = 1) -> Any:
+    values: Any = log.position
+    for _ in range(times if values is not None and len(log) > 2 else 0):
+        values = np.gradient(values, log.times, axis=0)
+    return values
+
+
+def _size(values: Any, column: int) -> float:
+    """The deviation of a column; 0 where there is none."""
+    if values is None:
+        return 0.0
+    own = values[:, column][np.isfinite(values[:, column])]
+    return float(np.std(own)) if own.size else 0.0
+
+
+def select(rows: Iterable[Row], plant: Plant, log: Log) -> list[Parameter]:
+    """The parameters that rows mean, in their order; of one that several rows name the last says
+    bounds and prior. Raises NotFoundError for patterns that mean nothing, InvalidError."""
+    found: dict[tuple[str, tuple[str, ...]], Parameter] = {}
+    for row in rows:
+        family = FAMILIES[row.family]
+        names = _names(plant, log, family.of)
+        try:
+            paths = [names[i] for i in fitting(row.pattern, names)] if names else []
+        except NotFoundError as error:
+            raise NotFoundError(f"{row.family}: {error}") from None
+        if not paths:
+            raise NotFoundError(f"{row.family}: the asset has no {family.of} of the log's joints "
+                                "that has it")
+        tied = row.tied if row.tied is not None else row.family == "delay"
+        for group in [tuple(paths)] if tied else [(path,) for path in paths]:
+            key = (row.family, group)
+            found[key] = _parameter(row, group, plant, log, found.get(key))
+    if len(found) > MAX_PARAMETERS:
+        raise InvalidError(f"{len(found)} parameters; at most {MAX_PARAMETERS} are identified "
+                           "together: name fewer joints")
+    return list(found.values())
+
+
+def _parameter(row: Row, paths: tuple[str, ...], plant: Plant, log: Log,
+               known: Parameter | None) -> Parameter:
+    family = FAMILIES[row.family]
+    nominal = float(np.mean([_nominal(plant, row.family, path) for path in paths]))
+    scale = float(np.mean([_scale(plant, log, row.family, path, nominal) for path in paths]))
+    low = row.low if row.low is not None else known.low if known else family.low
+    high = row.high if row.high is not None else known.high if known else family.high
+    prior = row.prior if row.prior is not None else known.prior if known else None
+    deviation = row.deviation if row.prior is not None else known.deviation if known else None
+    start = row.start if row.start is not None else nominal
+    if not math.isfinite(start):
+        start = scale
+    if low < family.low or high > family.high:
+        raise InvalidError(f"{row.family} of {paths[0]}: bounds are within {family.low:g} and "
+                           f"{family.high:g} {family.unit}")
+    start = min(max(start, low), high)
+    return Parameter(row.family, paths, nominal, start, low, high, scale, prior, deviation)

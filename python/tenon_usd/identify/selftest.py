@@ -1,0 +1,273 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""A test with known truth: an asset with other parameters makes a log, with the noise of encoders,
+and the parameters are identified from the asset as it is.
+
+A trajectory that fits proves little: it also fits with a wrong joint, a wrong scale or parameters
+that only appear together. Here each family is scored against what made the log.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import InvalidError
+from ..world import World
+from .identifiable import Identifiability
+from .log import Log
+from .model import INTEGRATORS, Model
+from .parameters import FAMILIES, Parameter, Row, select
+from .solve import Shown, Solution, look, solve
+
+Array = npt.NDArray[np.float64]
+#: What is identified where nothing is named.
+DEFAULT_FAMILIES = ("friction", "damping", "armature", "stiffness", "driveDamping", "delay")
+#: How far off each family may be: a part of the truth; of delays a part of the time step.
+ALLOWED = {"friction": 0.05, "damping": 0.05, "armature": 0.05, "stiffness": 0.02,
+           "driveDamping": 0.02, "delay": 0.5, "mass": 0.05, "maxForce": 0.02,
+           "effortScale": 0.02, "offset": 0.05, "contactFriction": 0.1}
+
+
+@dataclasses.dataclass(frozen=True)
+class Sensors:
+    """What a log loses: `counts` of encoders in a turn (of sliding joints: in a metre), deviation
+    of the noise of positions [counts] and of efforts [part of their own deviation], `period` of
+    samples [s]."""
+
+    counts: int = 1 << 16
+    noise: float = 0.5
+    effort_noise: float = 0.01
+    period: float = 0.004
+
+
+@dataclasses.dataclass(frozen=True)
+class Score:
+    """One parameter: the truth, what was found [SI, rad], how far off, and how far it may be."""
+
+    parameter: Parameter
+    truth: float
+    found: float
+    error: float
+    allowed: float
+
+    @property
+    def passed(self) -> bool:
+        return self.error <= self.allowed
+
+
+@dataclasses.dataclass(frozen=True)
+class SelfTest:
+    """What came of it: scores of what was identified; what the log cannot tell, with the reasons;
+    the log itself."""
+
+    scores: tuple[Score, ...]
+    refused: tuple[Parameter, ...]
+    told: Identifiability
+    solution: Solution
+    log: Log
+    step: float
+
+    @property
+    def passed(self) -> bool:
+        return bool(self.scores) and all(score.passed for score in self.scores)
+
+
+def commands(world: World, seed: int, duration: float, period: float) -> Log:
+    """Position commands of all drives that hold positions: sums of sines of other phases in each
+    half, with soft steps, within the limits of joints. Raises InvalidError where no drive does."""
+    random = np.random.default_rng([seed, 1])
+    times = np.arange(0, duration + 0.5 * period, period)
+    scene, names = world.scene, world.drive_names
+    start = dict(zip(world.joint_names, world.joint_positions[0]))
+    followers = {joint.path for joint in scene.joints if len(joint.mimics)}
+    joints, columns = [], []
+    for path in names:
+        joint = next(each for each in scene.joints if each.path == path)
+        if joint.drives[0].stiffness <= 0 or path in followers or path not in start:
+            continue
+        low, high = _range(joint, float(start[path]))
+        joints.append(path)
+        columns.append(_excited(random, times, low, high, float(start[path])))
+    if not joints:
+        raise InvalidError("the asset has no drive that holds a position, so that nothing would "
+                           "move: give it drives (tenon drives)")
+    # What follows is measured, too.
+    measured = [*joints, *(path for path in world.joint_names if path in followers)]
+    made = np.full((len(times), len(measured)), np.nan)
+    made[:, :len(joints)] = np.stack(columns, axis=1)
+    return Log(times, tuple(measured), position=np.zeros_like(made), command_position=made)
+
+
+def _range(joint: Any, start: float) -> tuple[float, float]:
+    reach = 0.05 if joint.type == "prismatic" else 0.6
+    low = joint.lower if math.isfinite(joint.lower) and abs(joint.lower) < 1e6 else -math.inf
+    high = joint.upper if math.isfinite(joint.upper) and abs(joint.upper) < 1e6 else math.inf
+    if math.isfinite(low) and math.isfinite(high):
+        margin = 0.15 * (high - low)
+        low, high = low + margin, high - margin
+        middle = min(max(start, low + 0.5 * min(2 * reach, high - low)),
+                     high - 0.5 * min(2 * reach, high - low))
+        return max(low, middle - reach), min(high, middle + reach)
+    return start - reach, start + reach
+
+
+def _excited(random: np.random.Generator, times: Array, low: float, high: float,
+             start: float) -> Array:
+    """Sines and soft steps between two bounds, from `start` on."""
+    half = times[-1] / 2
+    made = np.zeros_like(times)
+    for begin in (0.0, half):
+        own = (times >= begin) & (times <= begin + half)
+        for frequency in np.geomspace(0.15, 2.5, 7):
+            phase = random.uniform(0, 2 * np.pi)
+            made[own] += np.sin(2 * np.pi * frequency * random.uniform(0.9, 1.1) * times[own]
+                                + phase) / frequency ** 0.5
+    period = random.uniform(1.1, 1.7)
+    made += 1.2 * np.tanh(3 * np.sin(2 * np.pi * times / period
+                                     + random.uniform(0, 2 * np.pi)))
+    made = (made - made.min()) / (made.max() - made.min())
+    soft = np.clip(times / 0.5, 0, 1)
+    return np.asarray(start + soft * (low + made * (high - low) - start))
+
+
+def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, commanded: Log, *,
+              step: float, engine: str | None = None, **options: Any) -> Log:
+    """The log that the asset with these numbers makes, without noise: commands hold until the next
+    one and come late by the delay, in whole steps. It steps on its own, apart from the model of a
+    fit."""
+    name = World(asset, engine, 1, **options).engine
+    options.setdefault("integrator", INTEGRATORS.get(name, ""))
+    world = World(asset, engine, 1, time_step=step, outputs=["efforts"], **options)
+    delays, offsets = dict[str, float](), dict[str, float]()
+    for parameter, value in zip(parameters, values):
+        name = FAMILIES[parameter.family].sets
+        for path in parameter.paths:
+            if name:
+                world.set_parameter(name, path, value)
+            elif parameter.family == "delay":
+                delays[path] = value
+            elif parameter.family == "offset":
+                offsets[path] = value
+    assert commanded.command_position is not None
+    joints = list(commanded.joints)
+    columns = [world.joint_names.index(joint) for joint in joints]
+    aimed = [(j, world.drive_names.index(joint), delays.get(joint, 0.0))
+             for j, joint in enumerate(joints) if np.isfinite(commanded.command_position[0, j])]
+    targets = world._targets.copy()
+    shift = np.array([offsets.get(joint, 0.0) for joint in joints])
+    now = np.array(world.joint_positions[0])
+    place, speed, force = (np.full((len(commanded), len(joints)), np.nan) for _ in range(3))
+    place[0], speed[0] = now[columns] + shift, 0.0
+    at = 1
+    steps = round(commanded.duration / step)
+    before = np.concatenate([now[columns] + shift, np.zeros(len(joints))])
+    for k in range(steps):
+        time = k * step
+        for column, drive, delay in aimed:
+            late = round(delay / step) * step
+            sample = max(0, int(np.searchsorted(commanded.times, time - late + 1e-9, "right")) - 1)
+            targets[0, drive] = commanded.command_position[sample, column] - shift[column]
+        world.set_drive_targets(targets)
+        world.step()
+        own, rate = world.joints()
+        after = np.concatenate([own[0, columns] + shift, rate[0, columns]])
+        while at < len(commanded) and commanded.times[at] <= time + step * (1 + 1e-9):
+            part = min(max((commanded.times[at] - time) / step, 0), 1)
+            mixed = (1 - part) * before + part * after
+            place[at], speed[at] = mixed[:len(joints)], mixed[len(joints):]
+            at += 1
+        before = after
+    for column, drive, delay in aimed:
+        late = round(delay / step) * step
+        before_it = np.searchsorted(commanded.times, commanded.times - late - 1e-9) - 1
+        aim = commanded.command_position[np.maximum(before_it, 0), column]
+        law = world.scene.joints[world.joint_paths.index(joints[column])].drives[0]
+        number = {"stiffness": law.stiffness, "driveDamping": law.damping,
+                  "maxForce": law.max_force}
+        number.update({each.family: value for each, value in zip(parameters, values)
+                       if joints[column] in each.paths})
+        force[:, column] = np.clip(
+            number["stiffness"] * (aim - place[:, column])
+            + number["driveDamping"] * (0 - speed[:, column]), -number["maxForce"],
+            number["maxForce"])
+    return dataclasses.replace(commanded, position=place, velocity=speed, effort=force,
+                               source="self-test")
+
+
+def measured(log: Log, sensors: Sensors, seed: int, sliding: Sequence[str] = ()) -> Log:
+    """A log as sensors have it: positions rounded to counts, speeds of them, noise."""
+    random = np.random.default_rng([seed, 2])
+    assert log.position is not None and log.effort is not None
+    place = log.position.copy()
+    for column, joint in enumerate(log.joints):
+        count = (1.0 if joint in sliding else 2 * np.pi) / sensors.counts
+        noisy = place[:, column] + sensors.noise * count * random.standard_normal(len(log))
+        place[:, column] = np.round(noisy / count) * count
+    effort = log.effort.copy()
+    size = np.array([np.nanstd(effort[:, j]) if np.isfinite(effort[:, j]).any() else 0.0
+                     for j in range(effort.shape[1])])
+    effort += sensors.effort_noise * size * random.standard_normal(effort.shape)
+    return dataclasses.replace(log, position=place, velocity=None, effort=effort)
+
+
+def perturbed(parameters: Sequence[Parameter], seed: int, step: float) -> Array:
+    """Other numbers than the asset's: what it has times 0.6 to 1.6, else a part of the scale."""
+    random = np.random.default_rng([seed, 3])
+    made = np.empty(len(parameters))
+    for at, parameter in enumerate(parameters):
+        part = random.uniform(0.6, 1.6)
+        if parameter.family == "delay":
+            made[at] = 6 * step * part
+        elif parameter.family == "offset":
+            made[at] = parameter.scale * (part - 1)
+        elif parameter.nominal > 0 and math.isfinite(parameter.nominal):
+            made[at] = parameter.nominal * part
+        else:
+            made[at] = parameter.scale * part
+        made[at] = min(max(made[at], parameter.low), parameter.high)
+    return made
+
+
+def self_test(asset: Any, rows: Sequence[Row] = (), *, engine: str | None = None, seed: int = 0,
+              duration: float = 10.0, step: float = 0.0, finer: int = 4,
+              sensors: Sensors | None = None, solver: str = "gauss-newton", window: float = 0.0,
+              threads: int = 0, shown: Shown | None = None, **options: Any) -> SelfTest:
+    """Makes a log with other parameters at a time step `finer` times smaller, identifies them from
+    the asset, and compares. What the log cannot tell is held at the truth, and named."""
+    sensors = sensors or Sensors()
+    world = World(asset, engine, 1, time_step=step, **options)
+    step = world.time_step
+    commanded = commands(world, seed, duration, sensors.period)
+    plain = simulated(asset, [], np.zeros(0), commanded, step=step, engine=engine, **options)
+    about = Model(asset, plain, engine=engine, step=step, window=duration, threads=threads,
+                  **options)
+    parameters = select(rows or [Row(family) for family in DEFAULT_FAMILIES], about.plant, plain)
+    truth = perturbed(parameters, seed, step)
+    sliding = [joint.path for joint in world.scene.joints if joint.type == "prismatic"]
+    log = measured(simulated(asset, parameters, truth, commanded, step=step / finer, engine=engine,
+                             **options), sensors, seed, sliding)
+    model = Model(asset, log, engine=engine, step=step, window=window, threads=threads, **options)
+    told = look(model, parameters)
+    refused = tuple(parameters[i] for i in told.refused)
+    fitted = [each if i not in told.refused else
+              dataclasses.replace(each, prior=float(truth[i]), deviation=0.0, start=float(truth[i]))
+              for i, each in enumerate(parameters)]
+    solution = solve(model, fitted, solver=solver, seed=seed, shown=shown)
+    scores = []
+    for at, (parameter, real) in enumerate(zip(parameters, truth)):
+        if at not in told.refused:
+            scores.append(_score(parameter, float(real), float(solution.values[at]), step))
+    return SelfTest(tuple(scores), refused, told, solution, log, step)
+
+
+def _score(parameter: Parameter, truth: float, found: float, step: float) -> Score:
+    apart = abs(found - truth)
+    whole = step if parameter.family == "delay" else (
+        parameter.scale if parameter.family == "offset" else abs(truth))
+    return Score(parameter, truth, found, apart / whole, ALLOWED[parameter.family])
