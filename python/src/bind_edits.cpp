@@ -103,22 +103,6 @@ void tell_lost_targets(OpenedStage& stage, const std::vector<Path>& properties) 
 
 // ---- edits
 
-nb::list edited(OpenedStage& stage, const AssetEdit& edit, bool of_targets = false) {
-  std::vector<EditedPlace> places;
-  {
-    const auto access = stage.access_without_waiting();
-    Diagnostics found;
-    places = or_raise(unlocked([&] { return stage.edit({edit}, found); }), found);
-    if (of_targets && stage.in_edits()) {
-      stage.look_later(edit.object);
-    }
-  }
-  if (of_targets && !stage.in_edits()) {
-    tell_lost_targets(stage, {edit.object});
-  }
-  return rows_of(places);
-}
-
 /// `with stage.edits() as edits:`
 struct EditsBlock {
   StagePtr stage;
@@ -156,11 +140,6 @@ void check_in_no_edits(const OpenedStage& stage, const char* what) {
   }
 }
 
-/// A value of Python as text layers write it.
-std::string as_text(const char* function, const nb::object& value) {
-  return nb::cast<std::string>(nb::module_::import_("tenon_usd.text").attr(function)(value));
-}
-
 bool is_relationship(const PrimOf& prim, const std::string& name) {
   {
     // Values alone turn no attribute into a relationship: the edits that wait may wait on.
@@ -179,19 +158,20 @@ bool is_relationship(const PrimOf& prim, const std::string& name) {
 }
 
 nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object& value,
-                   const std::string& engine, const std::string& layer,
+                   std::optional<double> time, const std::string& engine, const std::string& layer,
                    const std::string& type_name) {
   const bool targets = is_relationship(prim, name);
   AssetEdit edit;
   edit.kind = Kind::SetProperty;
   edit.object = prim.path.property(name);
   edit.value = as_text(targets ? "as_targets" : "as_text", value);
+  edit.time = time;
   edit.engine = engine;
   edit.layer = layer;
   if (!type_name.empty()) {
     edit.type_name = type_name;
   }
-  return edited(*prim.stage, edit, targets);
+  return edited(*prim.stage, {edit}, targets);
 }
 
 nb::list edit_targets(const PrimOf& prim, const std::string& name, const nb::object& paths,
@@ -200,7 +180,7 @@ nb::list edit_targets(const PrimOf& prim, const std::string& name, const nb::obj
   edit.kind = kind;
   edit.object = prim.path.property(name);
   edit.value = as_text("as_targets", paths);
-  return edited(*prim.stage, edit, kind == Kind::AddTargets);
+  return edited(*prim.stage, {edit}, kind == Kind::AddTargets);
 }
 
 nb::list edit_api(const PrimOf& prim, const std::string& schema, Kind kind) {
@@ -208,7 +188,7 @@ nb::list edit_api(const PrimOf& prim, const std::string& schema, Kind kind) {
   edit.kind = kind;
   edit.object = prim.path;
   edit.api = schema;
-  return edited(*prim.stage, edit);
+  return edited(*prim.stage, {edit});
 }
 
 nb::list edit_variant(const PrimOf& prim, const std::string& set, const std::string& variant,
@@ -217,33 +197,7 @@ nb::list edit_variant(const PrimOf& prim, const std::string& set, const std::str
   edit.kind = kind;
   edit.object = prim.path;
   edit.value = set + "=" + variant;
-  return edited(*prim.stage, edit);
-}
-
-/// Invalid for a type that a prim cannot have.
-void check_type(const std::string& type, Path prim) {
-  const schema::Schema* known = schema::Registry::instance().find(type);
-  if (type.empty() || (known != nullptr && known->kind == schema::SchemaKind::ConcreteTyped)) {
-    return;
-  }
-  std::vector<std::string_view> names;
-  for (const schema::Schema* one : schema::Registry::instance().schemas()) {
-    if (one->kind == schema::SchemaKind::ConcreteTyped) {
-      names.push_back(one->name.view());
-    }
-  }
-  const std::string nearest(nearest_name(type, names));
-  const bool api = known != nullptr && known->is_applied_api();
-  raise(Error(ErrorCode::Invalid, known == nullptr ? "no type of prims is called \"" + type + "\""
-                                  : api ? type + " is an API schema, which prims of a type have"
-                                        : type + " is a type that other types are made of")
-            .with_prim(prim.str())
-            .with_rule("edit.unknown-type")
-            .with_fix(api ? "define the prim, and apply() the schema to it"
-                      : nearest.empty()
-                          ? "any_type=True takes types that no schema declares"
-                          : "did you mean " + nearest +
-                                "? any_type=True takes types that no schema declares"));
+  return edited(*prim.stage, {edit});
 }
 
 /// A file, or (FILE, PRIM): what a new prim brings in.
@@ -255,8 +209,8 @@ std::optional<AssetArc> arc_of(const nb::object& reference, const nb::object& pa
     throw nb::value_error("a prim is defined with a reference or a payload, not with both");
   }
   AssetArc arc;
-  arc.payload = reference.is_none();
-  nb::object file = arc.payload ? payload : reference;
+  arc.kind = reference.is_none() ? AssetArc::Kind::Payload : AssetArc::Kind::Reference;
+  nb::object file = reference.is_none() ? payload : reference;
   if (nb::isinstance<nb::tuple>(file)) {
     const auto parts = nb::cast<nb::tuple>(file);
     if (parts.size() != 2) {
@@ -281,7 +235,7 @@ PrimOf define_prim(const StagePtr& stage, const std::string& path,
     check_type(type_name, edit.object);
   }
   edit.type_name = type_name;
-  edited(*stage, edit);
+  edited(*stage, {edit});
   return {stage, edit.object};
 }
 
@@ -289,7 +243,7 @@ void remove_prim(const PrimOf& prim) {
   AssetEdit edit;
   edit.kind = Kind::RemovePrim;
   edit.object = prim.path;
-  edited(*prim.stage, edit);
+  edited(*prim.stage, {edit});
 }
 
 /// The prim under its new name; this one is gone.
@@ -298,7 +252,7 @@ PrimOf rename_prim(const PrimOf& prim, const std::string& name) {
   edit.kind = Kind::RenamePrim;
   edit.object = prim.path;
   edit.value = name;
-  edited(*prim.stage, edit);
+  edited(*prim.stage, {edit});
   return {prim.stage, prim.path.parent().child(name)};
 }
 
@@ -307,14 +261,22 @@ nb::list rename_property(const PrimOf& prim, const std::string& name, const std:
   edit.kind = Kind::RenameProperty;
   edit.object = prim.path.property(name);
   edit.value = to;
-  return edited(*prim.stage, edit);
+  return edited(*prim.stage, {edit});
 }
 
 nb::list set_stage_metadata(OpenedStage& stage, const std::string& field, const nb::object& value) {
+  if (field == "comment" || field == "documentation" || field == "customLayerData") {
+    AssetEdit edit;
+    edit.kind = Kind::SetStageMetadata;
+    edit.object = Path::absolute_root();
+    edit.field = Token(field);
+    edit.value = as_text("as_metadata", value);
+    return edited(stage, {edit});
+  }
   const auto edits = or_raise(stage_metadata_edits({field + "=" + as_text("as_text", value)}));
   nb::list rows;
   for (const AssetEdit& edit : edits) {
-    rows.extend(edited(stage, edit));
+    rows.extend(edited(stage, {edit}));
   }
   return rows;
 }
@@ -338,32 +300,41 @@ bool moved(OpenedStage& stage, const char* what) {
 }
 
 void bind_values(nb::class_<PrimOf>& prim) {
-  prim.def("set", &set_value, "name"_a, "value"_a.none(), nb::kw_only(), "engine"_a = "",
-           "layer"_a = "", "type_name"_a = "",
-           nb::sig("def set(self, name: str, value: object, *, engine: str = '', layer: str = '', "
-                   "type_name: str = '') -> list[dict[str, Any]]"),
-           "Sets a property in the file that owns it, in memory until save(): a value in the units "
-           "of the stage, with the types of get(); None blocks it; of a relationship a list of "
-           "paths. `engine` (\"physx\", \"mujoco\") or `layer` name another file; `type_name` "
-           "(\"double3\") makes an attribute that nobody knows. Returns where it went: a list of "
-           "{\"file\", \"spec\", \"why\", \"before\", \"after\", \"variants\"}; inside of "
-           "edits() an empty one. A target that is not there is a warning.");
+  prim.def(
+      "set", &set_value, "name"_a, "value"_a.none(), nb::kw_only(), "time"_a = nb::none(),
+      "engine"_a = "", "layer"_a = "", "type_name"_a = "",
+      nb::sig("def set(self, name: str, value: object, *, time: float | None = None, "
+              "engine: str = '', layer: str = '', type_name: str = '') "
+              "-> list[dict[str, Any]]"),
+      "Sets a property in the file that owns it, in memory until save(): a value in the units "
+      "of the stage, with the types of get(); None blocks it; of a relationship a list of "
+      "paths. `time` is that of a sample [time codes of the stage]; without it the value is "
+      "the default one. `engine` (\"physx\", \"mujoco\") or `layer` name another file; `type_name` "
+      "(\"double3\") makes an attribute that nobody knows. Returns where it went: a list of "
+      "{\"file\", \"spec\", \"why\", \"before\", \"after\", \"variants\"}; inside of "
+      "edits() an empty one. A target that is not there is a warning.");
   prim.def(
       "__setitem__",
       [](const PrimOf& self, const std::string& name, const nb::object& value) {
-        set_value(self, name, value, "", "", "");
+        set_value(self, name, value, std::nullopt, "", "", "");
       },
       "name"_a, "value"_a.none(), "The same, in the file that owns the property.");
   prim.def(
       "clear",
-      [](const PrimOf& self, const std::string& name) {
+      [](const PrimOf& self, const std::string& name, std::optional<double> time,
+         const std::string& layer) {
         AssetEdit edit;
         edit.kind = Kind::ClearProperty;
         edit.object = self.path.property(name);
-        return edited(*self.stage, edit);
+        edit.time = time;
+        edit.layer = layer;
+        return edited(*self.stage, {edit});
       },
-      "name"_a, nb::sig("def clear(self, name: str) -> list[dict[str, Any]]"),
-      "Takes the strongest opinion about a property away. Returns what set() returns.");
+      "name"_a, nb::kw_only(), "time"_a = nb::none(), "layer"_a = "",
+      nb::sig("def clear(self, name: str, *, time: float | None = None, layer: str = '') "
+              "-> list[dict[str, Any]]"),
+      "Takes the strongest opinion about a property away, or that of the file `layer`; with `time` "
+      "one sample [time codes] of an attribute. Returns what set() returns.");
   prim.def(
       "apply",
       [](const PrimOf& self, const std::string& schema) {
@@ -442,6 +413,52 @@ void bind_block(nb::module_& module) {
 
 }  // namespace
 
+nb::list edited(OpenedStage& stage, const std::vector<AssetEdit>& edits, bool of_targets) {
+  std::vector<EditedPlace> places;
+  std::vector<Path> to_look_at;
+  {
+    const auto access = stage.access_without_waiting();
+    Diagnostics found;
+    places = or_raise(unlocked([&] { return stage.edit(edits, found); }), found);
+    for (const AssetEdit& edit : edits) {
+      if (of_targets && edit.object.is_property()) {
+        stage.in_edits() ? stage.look_later(edit.object) : to_look_at.push_back(edit.object);
+      }
+    }
+  }
+  tell_lost_targets(stage, to_look_at);
+  return rows_of(places);
+}
+
+std::string as_text(const char* function, const nb::object& value) {
+  return nb::cast<std::string>(nb::module_::import_("tenon_usd.text").attr(function)(value));
+}
+
+void check_type(const std::string& type, Path prim) {
+  const schema::Schema* known = schema::Registry::instance().find(type);
+  if (type.empty() || (known != nullptr && known->kind == schema::SchemaKind::ConcreteTyped)) {
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const schema::Schema* one : schema::Registry::instance().schemas()) {
+    if (one->kind == schema::SchemaKind::ConcreteTyped) {
+      names.push_back(one->name.view());
+    }
+  }
+  const std::string nearest(nearest_name(type, names));
+  const bool api = known != nullptr && known->is_applied_api();
+  raise(Error(ErrorCode::Invalid, known == nullptr ? "no type of prims is called \"" + type + "\""
+                                  : api ? type + " is an API schema, which prims of a type have"
+                                        : type + " is a type that other types are made of")
+            .with_prim(prim.str())
+            .with_rule("edit.unknown-type")
+            .with_fix(api ? "define the prim, and apply() the schema to it"
+                      : nearest.empty()
+                          ? "any_type=True takes types that no schema declares"
+                          : "did you mean " + nearest +
+                                "? any_type=True takes types that no schema declares"));
+}
+
 void bind_prim_edits(nb::class_<PrimOf>& prim) {
   bind_values(prim);
   bind_lists(prim);
@@ -452,10 +469,12 @@ void bind_prim_edits(nb::class_<PrimOf>& prim) {
   prim.def("rename_property", &rename_property, "name"_a, "to"_a,
            nb::sig("def rename_property(self, name: str, to: str) -> list[dict[str, Any]]"),
            "Gives a property another name, also in all that names it. Returns what set() returns.");
+  bind_prim_authoring(prim);
 }
 
 void bind_stage_edits(nb::module_& module, nb::class_<OpenedStage>& stage) {
   bind_block(module);
+  bind_stage_authoring(module, stage);
   stage.def(
       "define", &define_prim, "path"_a, "type_name"_a = nb::none(), nb::kw_only(),
       "reference"_a = nb::none(), "payload"_a = nb::none(), "any_type"_a = false,
@@ -473,13 +492,13 @@ void bind_stage_edits(nb::module_& module, nb::class_<OpenedStage>& stage) {
       "For `with stage.edits():`: the edits of the block are one step of undo(), all or none, and "
       "are made together at its end, or when something is read before. What the block raises takes "
       "them back.");
-  stage.def(
-      "set_metadata", &set_stage_metadata, "field"_a, "value"_a,
-      nb::sig("def set_metadata(self, field: str, value: object) -> list[dict[str, Any]]"),
-      "Sets metadata of the stage in its root layer: \"metersPerUnit\" [m], "
-      "\"kilogramsPerUnit\" [kg], \"upAxis\", \"timeCodesPerSecond\", \"defaultPrim\" and "
-      "others; the error of an unknown one lists them. Values of the asset keep their numbers. "
-      "Returns what Prim.set() returns.");
+  stage.def("set_metadata", &set_stage_metadata, "field"_a, "value"_a,
+            nb::sig("def set_metadata(self, field: str, value: object) -> list[dict[str, Any]]"),
+            "Sets metadata of the stage in its root layer: \"metersPerUnit\" [m], "
+            "\"kilogramsPerUnit\" [kg], \"upAxis\", \"timeCodesPerSecond\", \"defaultPrim\" and "
+            "others; the error of an unknown one lists them; \"comment\", \"documentation\" and "
+            "\"customLayerData\" (a dict), too. Values of the asset keep their numbers. "
+            "Returns what Prim.set() returns.");
   stage.def(
       "undo", [](OpenedStage& self) { return moved<&OpenedStage::undo>(self, "undo()"); },
       "Takes the last edit, or block of edits(), back; False where there is none since the last "

@@ -213,10 +213,24 @@ void bind_prim_questions(nb::class_<PrimOf>& prim) {
       "schema"_a, "The API schema is applied: \"PhysicsRigidBodyAPI\".");
   prim.def(
       "metadata",
-      [](const PrimOf& self, const std::string& field) {
-        return with_prim(self, [&](const stage::Prim& p) { return to_python(p.metadata(field)); });
+      [](const PrimOf& self, const std::string& field, const std::string& property) {
+        return with_prim(self, [&](const stage::Prim& p) {
+          return to_python(property.empty()              ? p.metadata(field)
+                           : p.is_relationship(property) ? p.relationship(property).metadata(field)
+                                                         : p.attribute(property).metadata(field));
+        });
       },
-      "field"_a, "Composed metadata: \"kind\", \"documentation\"; None where nothing is said.");
+      "field"_a, "property"_a = "",
+      "Composed metadata, of the prim or of one of its properties: \"kind\", \"documentation\", "
+      "\"customData\" (a dict); None where nothing is said.");
+  prim.def(
+      "connections",
+      [](const PrimOf& self, const std::string& name) {
+        return with_prim(
+            self, [&](const stage::Prim& p) { return paths_of(p.attribute(name).connections()); });
+      },
+      "name"_a, nb::sig("def connections(self, name: str) -> list[str]"),
+      "Paths of the attributes that feed this one.");
   prim.def(
       "times",
       [](const PrimOf& self, const std::string& name) {

@@ -5,6 +5,7 @@
 #include "functions.h"
 #include "opened_stage.h"
 #include "options.h"
+#include "overlaps.h"
 #include "physics.h"
 #include "scene_dynamics.h"
 #include "values.h"
@@ -19,6 +20,7 @@ NB_MODULE(_tenon, module) {
   tenon::python::bind_physics(module);
   tenon::python::bind_stage(module);
   tenon::python::bind_dynamics(module);
+  tenon::python::bind_overlaps(module);
   tenon::python::bind_batch(module);
   tenon::python::bind_functions(module);
 }

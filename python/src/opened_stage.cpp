@@ -91,8 +91,11 @@ void OpenedStage::close_step(std::size_t steps) {
   steps_ = 0;
 }
 
-Result<std::vector<EditedPlace>> OpenedStage::edit(const std::vector<AssetEdit>& edits,
+Result<std::vector<EditedPlace>> OpenedStage::edit(std::vector<AssetEdit> edits,
                                                    Diagnostics& diagnostics) {
+  for (AssetEdit& edit : edits) {
+    edit.inside = inside_.empty() ? edit.inside : inside_.back();
+  }
   if (open_blocks_ > 0) {
     waiting_.insert(waiting_.end(), edits.begin(), edits.end());
     return std::vector<EditedPlace>();
@@ -144,6 +147,16 @@ Result<void> OpenedStage::drop_edits() {
     gone = editor_ && editor_->undo();
   }
   return gone ? look_again() : Result<void>();
+}
+
+Result<std::vector<std::shared_ptr<const stage::Stage>>> OpenedStage::views() {
+  TENON_TRY(AssetEditor * asset, editor());
+  TENON_TRY(const auto views, asset->working_views());
+  std::vector<std::shared_ptr<const stage::Stage>> stages;
+  for (const AssetEditor::View& view : views) {
+    stages.push_back(view.stage);
+  }
+  return stages;
 }
 
 Result<bool> OpenedStage::undo() {

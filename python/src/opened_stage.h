@@ -50,8 +50,7 @@ class OpenedStage {
 
   /// Edits in memory, all or none; between begin_edits() and end_edits() they wait until somebody
   /// looks at the scene, and no place is known yet. Errors: those of AssetEditor.
-  Result<std::vector<EditedPlace>> edit(const std::vector<AssetEdit>& edits,
-                                        Diagnostics& diagnostics);
+  Result<std::vector<EditedPlace>> edit(std::vector<AssetEdit> edits, Diagnostics& diagnostics);
   /// From here on edits are one step of the history, all or none. Blocks may be inside of others,
   /// and are parts of them then.
   void begin_edits();
@@ -67,6 +66,11 @@ class OpenedStage {
   /// Relationships whose targets somebody looks at when the blocks are over.
   void look_later(Path relationship) { to_look_at_.push_back(relationship); }
   std::vector<Path> to_look_at() { return std::exchange(to_look_at_, {}); }
+  /// From here on, until come_out(), edits go into this variant.
+  void go_inside(VariantPlace place) { inside_.push_back(std::move(place)); }
+  void come_out() { inside_.pop_back(); }
+  /// The scene under all selections of "Physics", as it is now. Errors: those of AssetEditor.
+  Result<std::vector<std::shared_ptr<const stage::Stage>>> views();
   /// Says something about an edit in diagnostics(), after what opening said.
   void tell(const Diagnostic& finding) { diagnostics_.add(finding); }
 
@@ -100,6 +104,7 @@ class OpenedStage {
   std::optional<AssetEditor> editor_;
   std::size_t open_blocks_ = 0;
   bool dropped_ = false;                    // a block inside of the open ones failed
+  std::vector<VariantPlace> inside_;        // the last one counts
   std::vector<AssetEdit> waiting_;          // of the open blocks
   std::vector<Path> to_look_at_;            // the same
   std::vector<EditedPlace> places_;         // of the edits that were made last, or of the blocks

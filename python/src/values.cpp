@@ -12,6 +12,7 @@
 #include <nanobind/stl/string.h>
 
 #include "tenon/answers/opinions.h"
+#include "tenon/layer/dictionary.h"
 #include "tenon/layer/scalar_types.h"
 
 namespace tenon::python {
@@ -91,6 +92,13 @@ nb::object to_python(const Value& stored) {
 #include "tenon/layer/value_types.def"
   if (value.empty() || value.is_block()) {
     return nb::none();
+  }
+  if (const auto* dictionary = value.get<Dictionary>()) {
+    nb::dict entries;
+    for (const auto& [key, entry] : dictionary->items) {
+      entries[text(key)] = to_python(entry);
+    }
+    return entries;
   }
   return text(answers::short_value_text(value));
 }

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from typing import Unpack
 
     from ._tenon import Diagnostic, PhysicsScene, Stage
+    from .gpu import MjxBatch, NewtonBatch, WarpBatch
 
 Array = npt.NDArray[np.float64]
 OUTPUTS = ("contacts", "efforts", "reactions", "accelerations", "work", "sensors")
@@ -49,7 +50,10 @@ class World:
     name what can be read beside states: contacts, efforts, reactions, accelerations, work, sensors.
     World.outputs has them. `vary` are texts such as "bodyMass=0.8..1.2", "gravity=0.9..1.1" or
     "colliderFriction@/can=0.5..1.5": what each environment draws of them depends on `seed` and its
-    number alone. `options` are those of tenon_usd.open(). Raises errors of tenon_usd.errors.
+    number alone. `deactivate` skips links with all that hangs on them, joints, or what is below a
+    prim; `bypass` holds the sides of joints as they start, or skips single links; `anchor` fixes
+    links to the world where they start: paths, names or regular expressions each, and diagnostics
+    say what was masked. `options` are those of tenon_usd.open(). Raises errors of tenon_usd.errors.
 
     Properties are read-only arrays of that moment: what is written into them would be lost, so that
     it raises. Whole properties are set (world.joint_positions = ...); methods give arrays that
@@ -69,6 +73,9 @@ class World:
         outputs: Iterable[str] = (),
         vary: Iterable[str] = (),
         integrator: str = "",
+        deactivate: Iterable[str] = (),
+        bypass: Iterable[str] = (),
+        anchor: Iterable[str] = (),
         **options: Unpack[OpenOptions],
     ) -> None:
         envs = counted("envs", envs)
@@ -76,10 +83,13 @@ class World:
         for name in self._outputs:
             if name not in OUTPUTS:
                 raise InvalidError(f"outputs: {no_such(name, OUTPUTS)}")
+        masks = (texts("deactivate", deactivate), texts("bypass", bypass), texts("anchor", anchor))
+        self._masked = any(masks)
         how = _tenon.BatchOptions(
             engine or "", envs, counted("threads", threads), counted("seed", seed),
-            float(time_step), self._outputs, texts("vary", vary), integrator
+            float(time_step), self._outputs, texts("vary", vary), integrator, _tenon.Masks(*masks)
         )
+        self._asset, self._open_options = asset, options
         if isinstance(asset, _tenon.Stage):
             if options:
                 raise TypeError(f"{', '.join(options)}: a stage was opened with its own options")
@@ -490,6 +500,38 @@ class World:
             more = f" (and {len(told) - 1} more in World.diagnostics)" if len(told) > 1 else ""
             warnings.warn(f"{told[0]}{more}", ExportWarning, stacklevel=3)
         return text, images
+
+    # ---- into other packages
+
+    def to_warp(self, envs: int | None = None) -> WarpBatch:
+        """A batch of MuJoCo Warp that begins where this world is, on the GPU where there is one;
+        `envs` environments, else as many as here. See tenon_usd.gpu.
+
+        What it loses is an ExportWarning and in its `lost`. Raises MissingError without
+        mujoco_warp, UnsupportedError for models that it does not take.
+        """
+        from .gpu import WarpBatch
+
+        return WarpBatch(self, envs)
+
+    def to_mjx(self, envs: int | None = None) -> MjxBatch:
+        """The same of MJX: mujoco.mjx and JAX."""
+        from .gpu import MjxBatch
+
+        return MjxBatch(self, envs)
+
+    def to_newton(self, envs: int | None = None) -> NewtonBatch:
+        """The same of Newton, by tenon_usd.newton.add_usd, which reads the asset as it is at this
+        moment, with its SolverMuJoCo; UnsupportedError for a world that leaves links out or holds
+        them (`deactivate`, `bypass`, `anchor`)."""
+        from .gpu import NewtonBatch
+
+        return NewtonBatch(self, envs)
+
+    def _source(self) -> Stage:
+        """The stage that the world was made of."""
+        return self._asset if isinstance(self._asset, _tenon.Stage) else _tenon.open_stage(
+            os.fspath(self._asset), arguments_of(self._open_options))
 
     # ---- the rest
 

@@ -33,7 +33,7 @@
 #include "tenon/asset/editing/edit_refusals.h"
 #include "tenon/asset/editing/engine_layer.h"
 #include "tenon/asset/editing/other_variants.h"
-#include "tenon/edit/api_schemas.h"
+#include "tenon/asset/editing/whole_prim_edits.h"
 #include "tenon/edit/edit_target.h"
 #include "tenon/edit/stage_editor.h"
 #include "tenon/layer/fields.h"
@@ -68,18 +68,9 @@ class AssetEditor::State {
     if (root && options_.open.physics_variant.empty()) {
       TENON_CHECK(open_variants(root));
     }
-    std::map<std::string, layer::LayerPtr> all;
-    for (const Selection& selection : selections_) {
-      for (const layer::LayerPtr& layer : selection.stage->used_layers()) {
-        if (layer.get() != selection.stage->session_layer()) {
-          all.emplace(layer->identifier(), layer);
-        }
-      }
-    }
     std::vector<layer::LayerPtr> layers;
-    for (const auto& [identifier, layer] : all) {
-      layers.push_back(layer);
-      names_.push_back(identifier);
+    for (const std::string& name : names_) {
+      layers.push_back(layer(name));
     }
     roles_ = structure::roles_of_files(first->root_layer(), layers);
     return {};
@@ -175,6 +166,7 @@ class AssetEditor::State {
     const AssetEdit* edit = nullptr;
     PropertyValue typed;
     EditedPlace place;
+    std::size_t lost_arcs = 0;  ///< that the file gave the prim before
   };
 
   Result<void> open_first(const std::string& path) {
@@ -190,6 +182,7 @@ class AssetEditor::State {
     constexpr int kRounds = 32;  // each may bring prims below with a set of their own
     for (int i = 0; i < kRounds; ++i) {
       selections_.clear();
+      names_.clear();
       selections_.push_back({options_.open.physics_variant,
                              edit::StageEditor::over(root_, sources.session, opener, stage_options),
                              nullptr});
@@ -253,8 +246,20 @@ class AssetEditor::State {
     if (stage != selection.stage) {
       selection.stage = stage;
       TENON_CHECK(work_.spend(*stage));
+      learn_names(*stage);
     }
     return {};
+  }
+
+  /// Edits may bring files in.
+  void learn_names(const stage::Stage& stage) {
+    for (const layer::LayerPtr& layer : stage.used_layers()) {
+      const auto at = std::lower_bound(names_.begin(), names_.end(), layer->identifier());
+      const bool known = at != names_.end() && *at == layer->identifier();
+      if (!known && layer.get() != stage.session_layer()) {
+        names_.insert(at, layer->identifier());
+      }
+    }
   }
 
   /// Proves what was edited since the scenes were composed last.
@@ -265,7 +270,7 @@ class AssetEditor::State {
     }
     for (const Unproved& one : unproved) {
       places_.push_back(one.place);
-      TENON_CHECK(prove(*one.edit, one.typed, places_.back()));
+      TENON_CHECK(prove(one, places_.back()));
     }
     return {};
   }
@@ -284,6 +289,9 @@ class AssetEditor::State {
 
   Result<void> edit_one(std::size_t number, const AssetEdit& edit) {
     TENON_CHECK(check_object(edit));
+    if (edit.inside) {
+      return edit_inside(number, edit);
+    }
     if (edit.is_about_specs()) {
       TENON_CHECK(keep_stages());  // what is to change is looked up in them on the way
       TENON_CHECK(edit_specs(number, edit));
@@ -295,6 +303,27 @@ class AssetEditor::State {
       done = try_edit(number, edit);
     }
     return done ? Result<void>() : Result<void>(done.error());
+  }
+
+  /// In a variant: the scene is looked at with the variant selected.
+  Result<void> edit_inside(std::size_t number, const AssetEdit& edit) {
+    const auto& [prim, set, variant] = *edit.inside;
+    TENON_CHECK(settle());
+    const std::string name = prim.str() + "{" + set + "=" + variant + "}";
+    if (std::exchange(inside_name_, name) != name) {
+      inside_.clear();
+      inside_.push_back(
+          {"", history().under_session(with_variant(session_, prim, set, variant)), nullptr});
+    }
+    std::swap(selections_, inside_);
+    Result<void> done = settle();
+    if (done) {
+      const Result<bool> tried = try_edit(number, edit);
+      done = tried ? settle() : tried.error();
+    }
+    forget_unproved();
+    std::swap(selections_, inside_);
+    return done ? settle() : done;
   }
 
   /// In all files at once; looks whether it is composed as asked.
@@ -379,9 +408,7 @@ class AssetEditor::State {
     if (edit.kind == Kind::DefinePrim) {
       TENON_CHECK(check_free(prim, prim_path));
     }
-    if (edit.kind == Kind::ApplyApi) {
-      TENON_CHECK(edit::check_api(prim, edit.api));
-    }
+    TENON_CHECK(check_fits(prim, edit));
     TENON_TRY(const FileChoice file,
               choose_file({*first->stage, prim, edit, roles_, names_, options_}));
     TENON_CHECK(check_in_no_package(file.layer));
@@ -419,17 +446,17 @@ class AssetEditor::State {
 
   Result<bool> author_in(Selection& selection, const stage::LayerSite& site, std::size_t number,
                          const AssetEdit& edit, const FileChoice& file) {
-    edit::EditTarget target = edit::site_target(site, file.layer);
+    TENON_TRY(edit::EditTarget target, target_of(selection.editor, site, file.layer, edit));
     const Path spec = target.spec_path(edit.object);
     if (sites_.contains(spec)) {
       return false;
     }
-    Unproved made{&edit, {}, {}};
-    if (!edit.is_about_api() && !edit.is_about_prim()) {
+    Unproved made{&edit, {}, {}, lost_arcs(*selection.stage, edit.object, file.layer)};
+    if (edit.is_about_value()) {
       const stage::Prim prim = selection.stage->prim(edit.object.prim());
       const layer::LayerPtr layer = selection.editor.layer(file.layer);
       TENON_TRY(made.typed, typed_edit(prim, edit, layer->find(spec)));
-      made.place.before = composed_text(prim, edit.object.name());
+      made.place.before = composed_text(prim, edit);
     }
     TENON_CHECK(selection.editor.set_target(std::move(target)));
     if (auto made_it = author_edit(selection.editor, edit, spec, made.typed); !made_it) {
@@ -472,12 +499,17 @@ class AssetEditor::State {
 
   /// Looks whether the scene is now as it was asked for, wherever the file counts: first as the
   /// asset opens, or else in the first variant that has the file.
-  Result<void> prove(const AssetEdit& edit, const PropertyValue& typed, EditedPlace& place) {
+  Result<void> prove(const Unproved& one, EditedPlace& place) {
+    const AssetEdit& edit = *one.edit;
+    const PropertyValue& typed = one.typed;
     bool first = true;
     for (const Selection& selection : selections_) {
       const stage::Prim prim = selection.stage->prim(edit.object.prim());
       if (!prim || !stage::site_in_layer(*selection.stage, prim.path(), place.file)) {
         continue;
+      }
+      if (edit.arc && lost_arcs(*selection.stage, prim.path(), place.file) > one.lost_arcs) {
+        return lost_arc(*selection.stage, edit, place.file);
       }
       if (is_as_asked(prim, edit, typed)) {
         if (!selection.shown.empty()) {
@@ -485,61 +517,25 @@ class AssetEditor::State {
         }
         if (first && edit.kind == Kind::DefinePrim) {
           place.after = edit.type_name.str();
-        } else if (first && !edit.is_about_api() && !edit.is_about_prim()) {
-          place.after = composed_text(prim, edit.object.name());
-          warn_of_samples(prim, edit, typed);
+        } else if (first && edit.is_about_value()) {
+          place.after = composed_text(prim, edit);
+          warn_of_samples(prim, edit, typed, *diagnostics_);
         }
       } else if (first) {
-        return hidden(selection, edit, place.file);
+        return hidden(*selection.stage, selection.shown, edit, place.file);
       } else {
-        Diagnostic finding = hidden(selection, edit, place.file).diagnostic();
+        Diagnostic finding =
+            hidden(*selection.stage, selection.shown, edit, place.file).diagnostic();
         finding.severity = Severity::Warning;
         finding.rule = "edit.hidden-in-variant";
         diagnostics_->add(std::move(finding));
       }
       first = false;
+      if (edit.kind == Kind::SelectVariant) {
+        break;  // the others are other selections
+      }
     }
     return {};
-  }
-
-  void warn_of_samples(const stage::Prim& prim, const AssetEdit& edit, const PropertyValue& typed) {
-    const bool samples = !typed.is_relationship &&
-                         prim.attribute(edit.object.name()).value_source(stage::Time(0.0)) !=
-                             prim.attribute(edit.object.name()).value_source();
-    if (samples && edit.kind == Kind::SetProperty) {
-      diagnostics_->add(prim.attribute(edit.object.name())
-                            .located(Severity::Warning, "edit.has-samples",
-                                     "the value has time samples, which count at all times but the "
-                                     "default one"));
-    }
-  }
-
-  static Error hidden(const Selection& selection, const AssetEdit& edit, const std::string& file) {
-    const bool of_prim = edit.is_about_api() || edit.is_about_prim();
-    const Token property = of_prim ? Token() : edit.object.name();
-    std::string stronger = "another layer";
-    std::uint32_t line = 0;
-    for (const auto& source :
-         stage::opinion_sources(*selection.stage, edit.object.prim(), property)) {
-      if (source.layer->identifier() == file) {
-        break;
-      }
-      const bool speaks = edit.is_about_api() ? source.spec->has(fields::apiSchemas)
-                                              : source.spec->fields().size() > 0;
-      if (speaks) {
-        stronger = source.layer->identifier();
-        line = source.spec->line;
-        break;
-      }
-    }
-    const std::string where = selection.shown.empty() ? "" : " under Physics=" + selection.shown;
-    Error error(ErrorCode::Invalid, "what " + file_part(file) + " says about <" +
-                                        edit.object.str() + "> does not count" + where +
-                                        ": a stronger opinion hides it");
-    return std::move(std::move(error).in_file(stronger).at(line, line == 0 ? 0 : 1))
-        .with_prim(edit.object.prim().str())
-        .with_rule("edit.hidden")
-        .with_fix("edit that file, with --in or --engine, or clear the value there");
   }
 
   EditOptions options_;
@@ -549,6 +545,8 @@ class AssetEditor::State {
   layer::LayerPtr session_;            // of the first selection; may be null
   std::vector<Selection> selections_;  // first: as the asset opens
   std::vector<Selection> other_variants_;  // while an edit is about all files
+  std::vector<Selection> inside_;          // the variant that the last edit in one went into
+  std::string inside_name_;
   stage::WorkAccount work_;
   std::vector<std::string> names_;
   structure::RolesOfFiles roles_;

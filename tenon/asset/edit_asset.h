@@ -12,6 +12,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/path.h"
 #include "tenon/base/result.h"
+#include "tenon/layer/arcs.h"
 #include "tenon/layer/layer.h"
 #include "tenon/mesh/mesh_scene.h"
 #include "tenon/open_stage.h"
@@ -21,11 +22,23 @@
 /// Edits of assets in files: each goes to the file that owns the changed property.
 namespace tenon {
 
-/// The arc of a new prim.
+/// What an arc brings to a prim.
 struct AssetArc {
-  bool payload = false;  ///< else a reference
-  std::string file;      ///< absolute; the layer names it from its own folder
-  Path prim;             ///< empty: the default prim of the file
+  enum class Kind : unsigned char { Reference, Payload, Inherit, Specialize };
+
+  Kind kind = Kind::Reference;
+  std::string file{};           ///< absolute; the layer names it from its own folder. Empty: the
+                                ///< stage itself, as for inherits and specializes
+  Path prim{};                  ///< empty: the default prim of the file
+  layer::LayerOffset offset{};  ///< of references and payloads: their time in that of the stage
+  bool first = false;           ///< stronger than those of its kind that the layer has; else weaker
+};
+
+/// A variant that an edit goes into, whichever is selected. The variant may be new.
+struct VariantPlace {
+  Path prim;
+  std::string set;
+  std::string variant;
 };
 
 /// The geometry of a prim of type Mesh that is made.
@@ -44,8 +57,16 @@ struct AssetEdit {
     RemoveApi,
     AddTargets,        ///< to what a relationship has
     RemoveTargets,     ///< of a relationship, also from weaker layers; from `layer` where tidy
+    Connect,           ///< an attribute to `targets`, all that feed it then
     DefinePrim,        ///< of type `type_name`, below a prim that is there, with what `arc` brings
     AddVariant,        ///< `value` is SET=VARIANT
+    AddArc,            ///< `arc`
+    RemoveArc,         ///< the same, whatever its offset; from the strongest file that has it
+    SelectVariant,     ///< `value` is SET=VARIANT; SET= for none, SET for what weaker files select
+    OrderChildren,     ///< `names` come first, in this order
+    OrderProperties,   ///< the same
+    SetMetadata,       ///< `field`, or its entry `key`, of a prim or property, to `value`
+    ClearMetadata,     ///< the same, in the strongest file that says it
     RemoveVariant,     ///< the same, from all own files; a set goes with its last one
     RemovePrim,        ///< from all own files, and from every list of targets in them
     RenamePrim,        ///< `value` is the new name, also for all that names the prim in own files
@@ -59,7 +80,7 @@ struct AssetEdit {
                       ///< "None" blocks; of a relationship: paths, all that it has then, or those
                       ///< to add or remove
   Token api;          ///< "PhysicsMassAPI", "PhysicsDriveAPI:angular"
-  Token field;        ///< of the stage: "metersPerUnit"
+  Token field;        ///< of the stage: "metersPerUnit"; of a prim or property: "kind"
   Token type_name;    ///< of an attribute that no schema and no layer knows: makes it; of a prim
   std::string engine{};  ///< its file alone, whatever EditOptions::engine says
   std::string layer{};   ///< this file alone, by its identifier, its path or the end of it
@@ -67,14 +88,29 @@ struct AssetEdit {
   /// of its own.
   std::optional<std::size_t> wish{};
 
+  std::optional<double> time{};  ///< [time codes] SetProperty, ClearProperty: of this sample alone
+  std::string key{};             ///< of metadata: an entry, "a:b" for b in the dictionary a
+  std::vector<Path> targets{};   ///< absolute
+  std::vector<Token> names{};
+  std::optional<VariantPlace> inside{};  ///< in the file that has the variant
   std::optional<AssetArc> arc{};
   std::shared_ptr<const MeshGeometry> mesh{};  ///< what a prim of type Mesh that is made shows
   bool tidy = false;                           ///< removing takes specs along that say nothing then
   bool may_rest = false;  ///< nothing that engines receive has to change by it alone
 
   bool is_about_api() const { return kind == Kind::ApplyApi || kind == Kind::RemoveApi; }
+  bool is_about_metadata() const {
+    return kind == Kind::SetMetadata || kind == Kind::ClearMetadata;
+  }
   /// About a prim or its variants as a whole.
-  bool is_about_prim() const { return kind >= Kind::DefinePrim && kind != Kind::RenameProperty; }
+  bool is_about_prim() const {
+    return kind >= Kind::DefinePrim && kind != Kind::RenameProperty &&
+           !(is_about_metadata() && object.is_property());
+  }
+  /// About what a property or metadata has, which is proved to be so.
+  bool is_about_value() const {
+    return (kind <= Kind::Connect && !is_about_api()) || is_about_metadata();
+  }
   /// In all files of the asset at once.
   bool is_about_specs() const { return kind >= Kind::RemoveVariant; }
 };

@@ -204,5 +204,40 @@ TEST_F(AssetEdits, TargetsBelowAnyInstanceAreNamedAsItsFileDoes) {
   }
 }
 
+TEST_F(AssetEdits, SamplesMetadataAndWhatIsInVariants) {
+  AssetEditor editor = open(write("a.usda", "def Cube \"A\" {\n    double size = 1\n}\n"));
+  AssetEdit sample = set("/A.size", "3");
+  sample.time = 10;
+  AssetEdit data;
+  data.kind = AssetEdit::Kind::SetMetadata;
+  data.object = Path::from("/A");
+  data.field = Token("customData");
+  data.key = "a:b";
+  data.value = "{\nint value = 7\n}";
+  AssetEdit inside = set("/A.visibility", "invisible");
+  inside.inside = VariantPlace{Path::from("/A"), "look", "dark"};
+  AssetEdit variant;
+  variant.kind = AssetEdit::Kind::AddVariant;
+  variant.object = Path::from("/A");
+  variant.value = "look=dark";
+  const auto done = editor.edit({sample, data, variant, inside}, diagnostics_);
+  ASSERT_TRUE(done) << done.error().to_string();
+  EXPECT_EQ(done->back().spec.str(), "/A{look=dark}.visibility");
+  const auto shown = [&] { return editor.working_views()->front().stage->prim(Path::from("/A")); };
+  EXPECT_EQ(shown().attribute("size").get_as<double>(10.0).value_or(0), 3);
+  EXPECT_NE(shown().attribute("visibility").get_as<Token>().value_or(Token()), "invisible");
+  AssetEdit select = variant;
+  select.kind = AssetEdit::Kind::SelectVariant;
+  ASSERT_TRUE(editor.edit({select}, diagnostics_));
+  EXPECT_EQ(shown().attribute("visibility").get_as<Token>().value_or(Token()), "invisible");
+  select.value = "look=drak";
+  EXPECT_EQ(refusal(editor.edit({select}, diagnostics_)), "edit.no-variant");
+  AssetEdit arc;
+  arc.kind = AssetEdit::Kind::AddArc;
+  arc.object = Path::from("/A");
+  arc.arc = AssetArc{.prim = Path::from("/B")};
+  EXPECT_EQ(refusal(editor.edit({arc}, diagnostics_)), "edit.no-target");
+}
+
 }  // namespace
 }  // namespace tenon

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tenon/asset/editing/whole_prim_edits.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
@@ -24,9 +25,34 @@ namespace {
 namespace fields = layer::fields;
 using structure::Role;
 
+/// The field of prims that an edit is about.
+Token metadata_of(const AssetEdit& edit) {
+  switch (edit.kind) {
+    case AssetEdit::Kind::AddVariant:
+      return fields::variantSetNames;
+    case AssetEdit::Kind::SelectVariant:
+      return fields::variantSelection;
+    case AssetEdit::Kind::OrderChildren:
+      return fields::primOrder;
+    case AssetEdit::Kind::OrderProperties:
+      return fields::propertyOrder;
+    case AssetEdit::Kind::AddArc:
+    case AssetEdit::Kind::RemoveArc:
+      return fields::references;
+    default:
+      return edit.field;
+  }
+}
+
 std::string subject(const AssetEdit& edit) {
-  if (edit.kind == AssetEdit::Kind::AddVariant) {
+  if (edit.kind == AssetEdit::Kind::AddVariant || edit.inside) {
     return "a variant";
+  }
+  if (edit.is_about_metadata()) {
+    return edit.field.str();
+  }
+  if (edit.is_about_prim() && edit.kind != AssetEdit::Kind::DefinePrim) {
+    return metadata_of(edit).str();
   }
   if (edit.is_about_prim()) {
     return "a prim of type " + edit.type_name.str();
@@ -71,8 +97,11 @@ Result<FileChoice> named_file(const FileQuestion& q, const std::string& name) {
 
 /// An opinion on the property, or on the list of API schemas.
 bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
-  if (edit.is_about_prim()) {
-    return false;
+  if (edit.is_about_prim() || edit.is_about_metadata()) {
+    return says(*source.layer, *source.spec, edit);
+  }
+  if (edit.kind == AssetEdit::Kind::Connect) {
+    return source.spec->has(fields::connectionPaths);
   }
   if (!edit.is_about_api()) {
     return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
@@ -87,7 +116,7 @@ bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
 
 /// Layers with an opinion, strongest first.
 std::vector<std::string> speaking(const FileQuestion& q) {
-  const Token property = q.edit.is_about_api() ? Token() : q.edit.object.name();
+  const Token property = q.edit.object.is_property() ? q.edit.object.name() : Token();
   std::vector<std::string> layers;
   for (const auto& source : stage::opinion_sources(q.stage, q.prim.path(), property)) {
     if (speaks(source, q.edit)) {
@@ -128,10 +157,11 @@ std::vector<std::string> files_with(const FileQuestion& q, Role role) {
 }
 
 structure::Ownership ownership(const FileQuestion& q) {
-  if (q.edit.kind == AssetEdit::Kind::AddVariant) {
-    return structure::owner_of_metadata(fields::variantSetNames);
+  const bool defines = q.edit.kind == AssetEdit::Kind::DefinePrim;
+  if (q.edit.is_about_prim() && !defines) {
+    return structure::owner_of_metadata(metadata_of(q.edit));
   }
-  if (q.edit.is_about_prim()) {
+  if (defines) {
     // The scope goes where the poses go.
     const bool is_scope =
         q.edit.type_name == "Scope" && q.edit.object.name().view() == structure::kNamedPosesScope;
@@ -228,6 +258,22 @@ Result<FileChoice> owning_file(const FileQuestion& q) {
                  "name the file with --in");
 }
 
+/// The strongest file that has the variant; of a new one that which has its set, or holds variants.
+Result<FileChoice> file_of_variant(const FileQuestion& q, const VariantPlace& place) {
+  for (const std::string& variant : {place.variant, std::string()}) {
+    for (const auto& source : stage::opinion_sources(q.stage, place.prim)) {
+      const Path at = source.path.variant_selection(Token(place.set), Token(variant));
+      if (source.arcs.empty() && source.layer->has(at)) {
+        return FileChoice{source.layer->identifier(), "it has the variant"};
+      }
+    }
+  }
+  for (const std::string& file : files_with(q, Role::Interface)) {
+    return FileChoice{file, owns(file, q.edit)};
+  }
+  return FileChoice{q.stage.root_layer().identifier(), "it is the root layer"};
+}
+
 }  // namespace
 
 stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit) {
@@ -240,6 +286,9 @@ stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit) {
 
 std::optional<stage::LayerSite> site_for(const stage::Stage& stage, const AssetEdit& edit,
                                          const std::string& layer) {
+  if (edit.inside) {
+    return stage::site_in_layer(stage, edit.inside->prim, layer);
+  }
   if (edit.kind != AssetEdit::Kind::DefinePrim) {
     return stage::site_in_layer(stage, edit.object.prim(), layer);
   }
@@ -264,6 +313,9 @@ Result<FileChoice> choose_file(const FileQuestion& question) {
   }
   if (!question.options.engine.empty() || !question.edit.engine.empty()) {
     return engine_file(question);
+  }
+  if (question.edit.inside) {
+    return file_of_variant(question, *question.edit.inside);
   }
   return question.roles.empty() ? strongest_file(question) : owning_file(question);
 }

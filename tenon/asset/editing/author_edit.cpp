@@ -7,10 +7,9 @@
 #include "tenon/asset/editing/author_edit.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 
-#include "tenon/asset/layers/relative_path.h"
+#include "tenon/asset/editing/whole_prim_edits.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/edit/layer_editor.h"
 #include "tenon/layer/fields.h"
@@ -37,15 +36,12 @@ Result<void> remove_api(edit::StageEditor& editor, Path prim, Path spec, Token a
 
 Result<void> take_away(edit::StageEditor& editor, const AssetEdit& edit, Path spec) {
   return editor.as_one_step([&]() -> Result<void> {
-    TENON_CHECK(edit.kind == Kind::ClearProperty ? editor.remove_property(edit.object)
-                                                 : remove_api(editor, edit.object, spec, edit.api));
+    TENON_CHECK(edit.time ? editor.clear_value(edit.object, *edit.time)
+                : edit.kind == Kind::ClearProperty
+                    ? editor.remove_property(edit.object)
+                    : remove_api(editor, edit.object, spec, edit.api));
     return edit.tidy ? editor.remove_silent_prim(edit.object.prim()) : Result<void>();
   });
-}
-
-/// As the layer at the editor's target names the file.
-std::string name_from_layer(const edit::StageEditor& editor, const std::string& file) {
-  return relative_asset_path(file, std::filesystem::path(editor.target().layer).parent_path());
 }
 
 layer::Value extent_value(const std::vector<Vec3f>& points) {
@@ -96,16 +92,7 @@ Result<void> define_prim(edit::StageEditor& editor, const AssetEdit& edit, Path 
         return write_mesh(specs, spec, *edit.mesh);
       });
     }
-    if (!edit.arc) {
-      return {};
-    }
-    const std::string name = name_from_layer(editor, edit.arc->file);
-    if (edit.arc->payload) {
-      layer::Payload payload{name, edit.arc->prim, {}};
-      return editor.edit_payloads(edit.object, edit::ListEdit<layer::Payload>::add(payload));
-    }
-    layer::Reference reference{name, edit.arc->prim, {}, {}};
-    return editor.edit_references(edit.object, edit::ListEdit<layer::Reference>::add(reference));
+    return edit.arc ? author_arc(editor, edit.object, *edit.arc) : Result<void>();
   });
 }
 
@@ -133,44 +120,67 @@ Result<void> edit_target_list(edit::StageEditor& editor, const AssetEdit& edit,
   });
 }
 
-}  // namespace
-
-Result<void> author_edit(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
-                         const PropertyValue& typed) {
-  const Path object = edit.object;
-  switch (edit.kind) {
-    case Kind::ClearProperty:
-    case Kind::RemoveApi:
-      return take_away(editor, edit, spec);
-    case Kind::DefinePrim:
-      return define_prim(editor, edit, spec);
-    case Kind::AddVariant:
-      return add_variant(editor, edit);
-    case Kind::RemoveVariant:
-    case Kind::RemovePrim:
-    case Kind::RenamePrim:
-    case Kind::RenameProperty:
-    case Kind::SetStageMetadata:
-      return Error(ErrorCode::Invalid, "this edit is of all files at once");
-    case Kind::ApplyApi:
-      return editor.as_one_step([&]() -> Result<void> {
-        TENON_CHECK(editor.withdraw_applied_schema(object, edit.api));  // a deletion, too
-        return editor.apply_api(object, edit.api);
-      });
-    case Kind::AddTargets:
-    case Kind::RemoveTargets:
-      return edit_target_list(editor, edit, typed);
-    case Kind::SetProperty:
-      break;
+Result<void> connect(edit::StageEditor& editor, const AssetEdit& edit, const PropertyValue& typed) {
+  if (typed.is_relationship) {
+    return Error(ErrorCode::Invalid, "<" + edit.object.str() + "> is a relationship")
+        .with_prim(edit.object.prim().str())
+        .with_rule("edit.type-mismatch")
+        .with_fix("attributes have connections; set the targets of a relationship");
   }
+  return editor.as_one_step([&]() -> Result<void> {
+    TENON_CHECK(
+        editor.create_attribute(edit.object, typed.type_name, typed.custom, typed.variability));
+    return editor.edit_connections(edit.object, edit.targets.empty()
+                                                    ? edit::ListEdit<Path>::clear()
+                                                    : edit::ListEdit<Path>::set(edit.targets));
+  });
+}
+
+/// A property gets its value, or its targets.
+Result<void> set_property(edit::StageEditor& editor, const AssetEdit& edit,
+                          const PropertyValue& typed) {
+  const Path object = edit.object;
   return editor.as_one_step([&]() -> Result<void> {
     if (typed.is_relationship) {
       TENON_CHECK(editor.create_relationship(object, typed.custom));
       return editor.edit_targets(object, edit::ListEdit<Path>::set(typed.targets));
     }
     TENON_CHECK(editor.create_attribute(object, typed.type_name, typed.custom, typed.variability));
-    return editor.set_value(object, typed.value);
+    return editor.set_value(object, typed.value,
+                            edit.time ? stage::Time(*edit.time) : stage::Time());
   });
+}
+
+}  // namespace
+
+Result<void> author_edit(edit::StageEditor& editor, const AssetEdit& edit, Path spec,
+                         const PropertyValue& typed) {
+  if (edit.is_about_specs()) {
+    return Error(ErrorCode::Invalid, "this edit is of all files at once");
+  }
+  switch (edit.kind) {
+    case Kind::SetProperty:
+      return set_property(editor, edit, typed);
+    case Kind::ClearProperty:
+    case Kind::RemoveApi:
+      return take_away(editor, edit, spec);
+    case Kind::ApplyApi:
+      return editor.as_one_step([&]() -> Result<void> {
+        TENON_CHECK(editor.withdraw_applied_schema(edit.object, edit.api));  // a deletion, too
+        return editor.apply_api(edit.object, edit.api);
+      });
+    case Kind::AddTargets:
+    case Kind::RemoveTargets:
+      return edit_target_list(editor, edit, typed);
+    case Kind::Connect:
+      return connect(editor, edit, typed);
+    case Kind::DefinePrim:
+      return define_prim(editor, edit, spec);
+    case Kind::AddVariant:
+      return add_variant(editor, edit);
+    default:
+      return author_whole_prim(editor, edit, spec, typed);
+  }
 }
 
 }  // namespace tenon

@@ -4,8 +4,10 @@
 
 #include <utility>
 
-#include "tenon/asset/edit_value.h"
+#include "tenon/asset/edit_file_choice.h"
 #include "tenon/bytes/asset_resolver.h"
+#include "tenon/layer/fields.h"
+#include "tenon/property_value.h"
 
 namespace tenon {
 
@@ -55,6 +57,52 @@ Error used_by_arc(Path from, Path prim) {
       .with_prim(prim.str())
       .with_rule("edit.in-use")
       .with_fix("remove that prim first, or let its arc lead elsewhere");
+}
+
+Error hidden(const stage::Stage& stage, const std::string& shown, const AssetEdit& edit,
+             const std::string& file) {
+  const Token property = edit.object.is_property() ? edit.object.name() : Token();
+  std::string stronger = "another layer";
+  std::uint32_t line = 0;
+  for (const auto& source : stage::opinion_sources(stage, edit.object.prim(), property)) {
+    if (source.layer->identifier() == file) {
+      break;
+    }
+    const bool speaks = edit.is_about_api() ? source.spec->has(layer::fields::apiSchemas)
+                                            : source.spec->fields().size() > 0;
+    if (speaks) {
+      stronger = source.layer->identifier();
+      line = source.spec->line;
+      break;
+    }
+  }
+  const std::string where = shown.empty() ? "" : " under Physics=" + shown;
+  Error error(ErrorCode::Invalid, "what " + file_part(file) + " says about <" + edit.object.str() +
+                                      "> does not count" + where + ": a stronger opinion hides it");
+  return std::move(std::move(error).in_file(stronger).at(line, line == 0 ? 0 : 1))
+      .with_prim(edit.object.prim().str())
+      .with_rule("edit.hidden")
+      .with_fix("edit that file, with --in or --engine, or clear the value there");
+}
+
+Result<edit::EditTarget> target_of(edit::StageEditor& editor, const stage::LayerSite& site,
+                                   const std::string& layer, const AssetEdit& edit) {
+  edit::EditTarget target = edit::site_target(site, layer);
+  if (!edit.inside) {
+    return target;
+  }
+  const auto& [prim, set, variant] = *edit.inside;
+  if (!edit.object.prim().has_prefix(prim) || edit.is_about_specs() || site.path != prim) {
+    return Error(ErrorCode::Invalid,
+                 edit.is_about_specs()
+                     ? "this edit is of all files at once, not of one variant"
+                     : "<" + edit.object.str() + "> has no place in a variant of " + named(prim))
+        .with_prim(edit.object.prim().str())
+        .with_rule("edit.outside-target")
+        .with_fix("make it outside of the variant");
+  }
+  TENON_CHECK(editor.set_target(std::move(target)));
+  return editor.variant_target(prim, set, variant);
 }
 
 Error with_file_fix(Error error) {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/asset/editing/whole_prim_edits.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/path.h"
 #include "tenon/base/text/nearest_name.h"
@@ -153,18 +154,30 @@ Result<std::vector<AssetEdit>> stage_metadata_edits(const std::vector<std::strin
   return edits;
 }
 
+namespace {
+
+/// By the table, or by the type of the field.
+Result<layer::Value> wanted_value(const stage::Stage& stage, const AssetEdit& edit) {
+  const Row* row = find_row(edit.field.view());
+  if (row == nullptr) {
+    return read_metadata(stage.pseudo_root(), edit);
+  }
+  const std::optional<layer::Value> value = value_of(*row, edit.value);
+  return value ? Result<layer::Value>(*value)
+               : Result<layer::Value>(
+                     bad_value(edit.field.str() + "=" + edit.value, "names are " + listed_names()));
+}
+
+}  // namespace
+
 Result<EditedPlace> set_stage_metadata(const AllFiles& files, const AssetEdit& edit,
                                        Diagnostics& diagnostics) {
-  const Row* row = find_row(edit.field.view());
-  const std::optional<layer::Value> value =
-      row == nullptr ? std::nullopt : value_of(*row, edit.value);
-  if (!value) {
-    return bad_value(edit.field.str() + "=" + edit.value, "names are " + listed_names());
-  }
   const stage::Stage& stage = *files.stages.front();
+  const Row* row = find_row(edit.field.view());
+  TENON_TRY(const layer::Value value, wanted_value(stage, edit));
   const std::string file = stage.root_layer().identifier();
-  if (row->form == Form::PrimName) {
-    const Path prim = Path::absolute_root().child(value->get_or(Token()));
+  if (row != nullptr && row->form == Form::PrimName) {
+    const Path prim = Path::absolute_root().child(value.get_or(Token()));
     if (!stage.prim(prim)) {
       return Error(ErrorCode::NotFound, "there is no prim " + named(prim))
           .in_file(file)
@@ -177,8 +190,8 @@ Result<EditedPlace> set_stage_metadata(const AllFiles& files, const AssetEdit& e
   place.spec = Path::absolute_root();
   place.why = "the root layer holds it for the asset";
   place.before = text_of(stage, edit.field);
-  place.after = formats::value_text(*value);
-  if (place.before != place.after && means_something_else(stage, *row)) {
+  place.after = formats::value_text(value);
+  if (row != nullptr && place.before != place.after && means_something_else(stage, *row)) {
     Diagnostic finding;
     finding.severity = Severity::Warning;
     finding.rule = "edit.not-rescaled";
@@ -196,15 +209,14 @@ Result<EditedPlace> set_stage_metadata(const AllFiles& files, const AssetEdit& e
     return Error(ErrorCode::Unsupported, "the root layer cannot be edited").in_file(file);
   }
   TENON_CHECK(editor->edit_layer(file, [&](edit::LayerEditor& specs) -> Result<void> {
-    specs.set(Path::absolute_root(), edit.field, *value);
+    specs.set(Path::absolute_root(), edit.field, value);
     return {};
   }));
   return place;
 }
 
 bool has_stage_metadata(const stage::Stage& stage, const AssetEdit& edit) {
-  const Row* row = find_row(edit.field.view());
-  const auto value = row == nullptr ? std::nullopt : value_of(*row, edit.value);
+  const auto value = wanted_value(stage, edit);
   return value && text_of(stage, edit.field) == formats::value_text(*value);
 }
 
