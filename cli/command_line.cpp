@@ -141,8 +141,10 @@ Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
   const auto option = std::find_if(rest.begin(), rest.end(), is_option_like);
   if (option != rest.end()) {
     const std::string name = option->substr(0, option->find('='));
+    // Every letter is one edit from every other: what was meant by one is not known.
+    const bool letter = name.size() == 2;
     return usage_error(app, spoken(app) + " has no option " + name, "usage.unknown-option",
-                       did_you_mean(name, option_names(app), ""));
+                       letter ? "" : did_you_mean(name, option_names(app), ""));
   }
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty()) {
@@ -169,7 +171,7 @@ Error missing(const CLI::App& app, const std::vector<std::string>& rest) {
   for (const CLI::App* at = &app; at != nullptr; at = at->get_parent()) {
     for (const CLI::Option* option : at->get_options()) {
       if (option->get_required() && option->count() == 0) {
-        const std::string name = option->get_name();
+        const std::string name = option->get_name(option->get_positional());
         const std::string one = name.ends_with('s') ? name.substr(0, name.size() - 1) : name;
         return usage_error(app,
                            option->get_positional() ? spoken(app) + ": missing " + upper(one)

@@ -43,7 +43,7 @@ using formats::LayerFormat;
 struct KindRow {
   OutputKind kind;
   const char* what;
-  std::array<std::string_view, 4> endings;
+  std::array<std::string_view, 5> endings;
   bool others;           ///< also endings that no row names
   bool standard_output;  ///< "-" will do
 };
@@ -56,7 +56,11 @@ constexpr KindRow kKinds[] = {
     {OutputKind::Log, "a log", {".csv", ".jsonl", ".npz"}, false, true},
     {OutputKind::NamedLog, "a log", {".csv", ".jsonl", ".npz"}, true, true},
     {OutputKind::State, "a saved state", {".state"}, true, true},
-    {OutputKind::Description, "a robot's description", {".xml", ".urdf"}, false, false},
+    {OutputKind::Description,
+     "a robot's description",
+     {".xml", ".urdf", ".sdf", ".srdf", ".py"},
+     false,
+     false},
     {OutputKind::Pairs, "a list of pairs", {".srdf"}, false, false},
     {OutputKind::Poses, "a file of poses", {".json"}, false, false},
     {OutputKind::Dump, "a dump", {".json"}, true, true},

@@ -86,9 +86,22 @@ def judgements_of_engines():
     yield Judgement("tuned_responses", ["{python}", "-B", "tests/tuning/test_responses.py",
                                         "build/release/bin/tenon", "all"],
                     "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("tuned_robots", ["{python}", "-B", "tests/tuning/tuned_robots.py", ".",
+                                     "build/release/bin/tenon", "docs/tuned-robots.md"],
+                    "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("mass_matrices", ["{python}", "-B", "tests/dynamics/mujoco_matrices.py", ".",
                                       "build/release/bin/tenon", "1000"],
                     "release", ["tenon_cli", "tenon_worker"])
+    # The same, and pairs that touch, beside Pinocchio and Coal.
+    pinocchio = "tests/dynamics/requirements-pinocchio.txt"
+    yield Judgement("pairs_beside", ["{engine}", "-B", "tests/dynamics/pairs_beside.py", ".",
+                                     "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"], pinocchio)
+    yield Judgement("mass_matrices_beside", ["bash", "-c", "python/tests/install.sh && "
+                                             "python/tests/run.sh $(dirname {engine})/.. "
+                                             "tests/dynamics/pinocchio_matrices.py . "
+                                             "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"], pinocchio)
 
 
 def judgements_of_pages_and_python():
@@ -113,6 +126,22 @@ def judgements_of_pages_and_python():
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "
                                          "python/tests/sanitized.sh"], "dev",
                     ["tenon_asset", "tenon_worker"])
+    yield from judgements_of_clusters()
+
+
+def judgements_of_clusters():
+    """What examples say of Slurm and Kubernetes, and worlds in packages for GPUs."""
+    tenon = "build/wheel/clean/bin/tenon"
+    install = "python/tests/install.sh && "
+    yield Judgement("sweep_slurm", ["bash", "-c", install +
+                                    f"python3 -B tests/sweep/on_slurm.py . {tenon}"], "release")
+    yield Judgement("sweep_kubernetes", ["bash", "-c", install + "{engine} -B "
+                                         f"tests/sweep/on_kubernetes.py . {tenon}"], "release", (),
+                    "tests/sweep/requirements-kubernetes.txt")
+    yield Judgement("to_gpu", ["bash", "-c", install +
+                               "PYTHONPATH=$(echo build/wheel/clean/lib/python*/site-packages) "
+                               "{engine} -B python/tests/to_gpu.py ."], "release", (),
+                    "tests/convert/requirements-readers.txt")
 
 
 def corpora():
@@ -142,6 +171,14 @@ def corpora():
                     "tests/convert/requirements-robots.txt")
     yield Judgement("sdf_beside_drake", ["{engine}", "-B", "tests/convert/sdf_beside_drake.py", ".",
                                          "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/convert/requirements-sdf.txt")
+    yield Judgement("ways_out_beside", ["{engine}", "-B", "tests/convert/ways_out_beside.py", ".",
+                                        "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/convert/requirements-ways.txt")
+    yield Judgement("ways_out", ["{engine}", "-B", "tests/convert/ways_out.py", ".",
+                                 "build/release/bin/tenon", "--installed"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "tests/convert/requirements-sdf.txt")
 
@@ -212,6 +249,10 @@ def judgements():
                     "tests/engines_beside/requirements-newton.txt")
     yield Judgement("sweeps", ["{engine}", "-B", "tests/sweep/at_scale.py"], "release", (),
                     "tests/sweep/requirements-sweep.txt")
+    # Logs in MCAP and bags, which take packages that the tests of the package do without.
+    yield Judgement("robot_logs", ["env", "TENON_EXTRAS=1", "{engine}", "-B",
+                                   "python/tests/test_identify_logs.py"], None, (),
+                    "python/tests/requirements-bags.txt")
     # Of a build with every engine (make build ENGINES=all, make test).
     yield Judgement("own_physx", ["{python}", "-B", "tests/engines_beside/own_physx.py", "{engine}",
                                   "build/release/bin/tenon", "docs/beside-other-engines.md"],

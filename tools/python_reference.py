@@ -19,7 +19,22 @@ MODULES = (("functions", "tenon_usd"), ("world", "tenon_usd"),
            ("logs", "tenon_usd.logs"),
            ("sweep/__init__", "tenon_usd.sweep"), ("sweep/plan", "tenon_usd.sweep.plan"),
            ("sweep/cases", "tenon_usd.sweep.cases"), ("sweep/chunks", "tenon_usd.sweep.chunks"),
-           ("sweep/work", "tenon_usd.sweep.work"))
+           ("sweep/work", "tenon_usd.sweep.work"),
+           ("identify/log", "tenon_usd.identify.log"),
+           ("identify/channels", "tenon_usd.identify.channels"),
+           ("identify/log_files", "tenon_usd.identify.log_files"),
+           ("identify/joints", "tenon_usd.identify.joints"),
+           ("identify/delays", "tenon_usd.identify.delays"),
+           ("identify/quality", "tenon_usd.identify.quality"),
+           ("identify/excite", "tenon_usd.identify.excite"),
+           ("identify/trajectory_files", "tenon_usd.identify.trajectory_files"),
+           ("identify/parameters", "tenon_usd.identify.parameters"),
+           ("identify/model", "tenon_usd.identify.model"),
+           ("identify/identifiable", "tenon_usd.identify.identifiable"),
+           ("identify/solve", "tenon_usd.identify.solve"),
+           ("identify/run", "tenon_usd.identify.run"),
+           ("identify/overlay", "tenon_usd.identify.overlay"),
+           ("identify/selftest", "tenon_usd.identify.selftest"))
 DEFINITIONS = (ast.FunctionDef, ast.ClassDef)
 
 

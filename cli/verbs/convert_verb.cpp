@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ending of the input decides the direction: assets become MJCF or URDF, all else is a
-// description and becomes an asset. Outputs carry a note of what was written
-// (tenon/structure/written_note.h). By it a later run sees that somebody edited them: it asks
-// before the work and once more when nobody else can write.
+// The ending of the input decides the direction: assets become descriptions in the formats of
+// other programs, all else is a description and becomes an asset. Outputs carry a note of what was
+// written (tenon/structure/written_note.h). By it a later run sees that somebody edited them: it
+// asks before the work and once more when nobody else can write.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "cli/output.h"
@@ -51,6 +52,8 @@ struct ConvertArguments {
   std::string names;  ///< empty: those of the settings, else "current"
   std::string schema;
   std::string physics;
+  std::string format;
+  std::string assets;
   bool fix_base = false;
   bool float_base = false;
   std::string self_collision;
@@ -223,11 +226,11 @@ OpenOptions open_options(const ConvertArguments& options) {
   return open;
 }
 
-/// `opens` is the file to open, where `output` is a folder.
+/// `opens` is the file to open, where `output` is a folder; `beside` may be empty.
 void note_counts(const Report& report, const std::string& opens, const std::string& links,
                  std::size_t joints, const std::string& beside) {
-  report.note("wrote " + shown_path(opens) + ": " + links + ", " + counted(joints, "joint") + ", " +
-              beside);
+  report.note("wrote " + shown_path(opens) + ": " + links + ", " + counted(joints, "joint") +
+              (beside.empty() ? "" : ", " + beside));
 }
 
 /// A robot that falls when it is simulated is told once, where nobody asked for it.
@@ -302,8 +305,41 @@ Result<void> check_export_options(const ConvertArguments& options) {
   return {};
 }
 
+/// What there is next to a description.
+std::string files_beside(const AssetDescription& description, bool has_assets) {
+  switch (description.format) {
+    case DescriptionFormat::Mjcf:
+      return counted(description.files_beside, has_assets ? "file" : "image");
+    case DescriptionFormat::Mjlab:
+      return counted(description.files_beside, "file");
+    case DescriptionFormat::Urdf:
+    case DescriptionFormat::Sdf:
+    case DescriptionFormat::Ros2Control:
+      return counted(description.files_beside, "mesh file");
+    case DescriptionFormat::Srdf:
+    case DescriptionFormat::IsaacLab:
+      break;
+  }
+  return {};
+}
+
+void note_description(const Report& report, const ConvertArguments& options,
+                      const AssetDescription& description) {
+  const bool has_bodies = description.format == DescriptionFormat::Mjcf ||
+                          description.format == DescriptionFormat::Mjlab ||
+                          description.format == DescriptionFormat::IsaacLab;
+  note_counts(report, options.output,
+              has_bodies ? counted(description.links, "body", "bodies")
+                         : counted(description.links, "link"),
+              description.joints, files_beside(description, !options.assets.empty()));
+}
+
 /// The other way: an asset as a robot's description.
-int run_export(Report& report, const ConvertArguments& options, DescriptionFormat format) {
+int run_export(Report& report, const ConvertArguments& options) {
+  auto format = description_format(options.output, options.format);
+  if (!format) {
+    return report.fail(format.error());
+  }
   if (auto usable = check_export_options(options); !usable) {
     return report.fail(usable.error());
   }
@@ -311,22 +347,19 @@ int run_export(Report& report, const ConvertArguments& options, DescriptionForma
   if (auto claimed = claim(options, OutputKind::Description, outputs); !claimed) {
     return report.fail(claimed.error());
   }
-  auto description = describe_asset(options.input, open_options(options), format, options.output,
-                                    report.diagnostics);
+  auto description = describe_asset(options.input, {open_options(options), *format, options.assets},
+                                    options.output, report.diagnostics);
   if (!description) {
     return report.fail(description.error());
   }
   if (auto written = write(std::move(description->made), options, outputs); !written) {
     return report.fail(written.error());
   }
-  const bool urdf = format == DescriptionFormat::Urdf;
-  note_counts(
-      report, options.output,
-      urdf ? counted(description->links, "link") : counted(description->links, "body", "bodies"),
-      description->joints, counted(description->files_beside, urdf ? "mesh file" : "image"));
+  note_description(report, options, *description);
   note_unsupported(report);
-  return report.finish(!urdf && left_out(report.diagnostics) ? kNo : kOk,
-                       description_json(*description, options.output));
+  return report.finish(
+      *format == DescriptionFormat::Mjcf && left_out(report.diagnostics) ? kNo : kOk,
+      description_json(*description, options.output));
 }
 
 int run_conversion(Report& report, const ConvertArguments& options) {
@@ -359,20 +392,16 @@ int run_convert(const Globals& globals, ConvertArguments options) {
                                "a description of one")
                              .with_fix("leave --update out"));
     }
-    if (ends_in(options.output, {".urdf"})) {
-      return run_export(report, options, DescriptionFormat::Urdf);
-    }
-    if (!ends_in(options.output, {".xml"})) {
-      return report.fail(
-          Error(ErrorCode::Unsupported, "an asset can be converted to MJCF or URDF only")
-              .with_fix("name the output .xml or .urdf; `tenon cat` and `tenon structure` write "
-                        "assets"));
-    }
-    return run_export(report, options, DescriptionFormat::Mjcf);
+    return run_export(report, options);
   }
-  if (!options.physics.empty()) {
-    return report.fail(wrong_direction(
-        "--physics", "it selects a variant of an asset, and a description has none"));
+  for (const auto& [option, value, about] :
+       {std::tuple("--physics", &options.physics,
+                   "it selects a variant of an asset, and a description has none"),
+        std::tuple("--format", &options.format, "it is about descriptions that are made"),
+        std::tuple("--assets", &options.assets, "it is about descriptions that are made")}) {
+    if (!value->empty()) {
+      return report.fail(wrong_direction(option, about));
+    }
   }
   if (names_folder(options.output)) {
     auto names = names_for(options.names, options.input, report);
@@ -413,6 +442,15 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options.physics,
                   "Of an asset: the variant of its set \"Physics\" to describe");
+  verb.add_option("--format", options.format,
+                  "Of an asset: what its description is, where the ending does not say so: a "
+                  "configuration of isaaclab or mjlab in Python, or URDF with ros2_control")
+      .one_of(description_format_names());
+  verb.add_option("--assets", options.assets,
+                  "Of an asset: the folder below that of the description for its meshes and "
+                  "images; without it one with the description's name, and meshes in the text of "
+                  "MJCF")
+      .value_name("DIR");
   verb.add_flag("--scene", options.scene,
                 "Keep a MJCF model's world as a PhysicsScene: gravity, time step, options");
   verb.add_flag("--flat", options.flat, "Links side by side, not nested");
@@ -467,9 +505,9 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
   verb.add_option("input", options->input, "A URDF, SDF or MJCF file, or an asset")
       .required()
       .file_only();
-  verb.add_option("output", options->output,
+  verb.add_option("output,-o,--output", options->output,
                   "A .usda, .usdc, .usd or .usdz file, or a folder for Asset Structure 3.0; for an "
-                  "asset an .xml or .urdf file")
+                  "asset an .xml (MJCF), .urdf, .sdf, .srdf or .py file; -o OUTPUT says the same")
       .required();
   verb.add_option("--package", options->packages,
                   "NAME=DIR: where a ROS package or a model of Gazebo is; without "
@@ -491,7 +529,9 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       "  tenon convert hand.urdf hand/ --update    after a change of hand.urdf; edits of hand/ "
       "stay\n"
       "  tenon convert humanoid.xml humanoid.usda\n  tenon convert hand.usda hand.xml\n"
-      "  tenon convert hand.usda hand.urdf\n"
+      "  tenon convert hand.usda hand.urdf\n  tenon convert hand.usda hand.sdf\n"
+      "  tenon convert hand.usda hand.xml --assets meshes\n"
+      "  tenon convert hand.usda hand_cfg.py --format isaaclab\n"
       "  tenon convert ur5.urdf ur5.usdz --package ur_description=../ur_description\n"
       "REGEX=VALUE is for joints (--collision: links) whose whole name matches; of several the "
       "last\n"

@@ -271,6 +271,15 @@ class IntoAFolder(unittest.TestCase):
                              "structure")
         self.assertEqual((code, answer["diagnostics"]), (0, []))
 
+    def test_the_output_may_be_named_by_an_option(self):
+        one, two = self.folder / "one.usda", self.folder / "two.usda"
+        self.assertEqual(tenon("convert", ROBOT, one)[0], 0)
+        self.assertEqual(tenon("convert", ROBOT, "-o", two)[0], 0)
+        self.assertEqual(tenon("convert", "--output", two, "--force", ROBOT)[0], 0)
+        self.assertEqual(two.read_bytes().replace(b"two.usda", b"one.usda"), one.read_bytes())
+        self.assertEqual(tenon("convert", ROBOT, one, "-o", two)[0], 2)
+        self.assertEqual(tenon("convert", ROBOT)[0], 2)
+
     def test_replaces_such_an_asset_and_nothing_else(self):
         target = self.folder / "robot.v2"  # a folder by its slash, whatever its name
         self.assertEqual(tenon("convert", ROBOT, f"{target}/")[0], 0)

@@ -58,7 +58,7 @@ FOREIGN = {
 # Verbs that read an asset, with what they want beside it; every verb is in one of the two.
 READS = {
     "add": ["/World/box=cube"], "bake": ["-o", "baked.usda"], "bench": [], "cat": [], "check": [],
-    "compare": [], "diff": ["{file}"], "dump": [], "drives": [], "dump-index": [],
+    "colliders": [], "compare": [], "diff": ["{file}"], "dump": [], "drives": [], "dump-index": [],
     "explain": ["/World"], "inertia": [], "info": [], "pairs": [], "physics": [],
     "pose": [],
     "record": ["-o", "film.png"], "remove": ["/World"],
@@ -68,8 +68,8 @@ READS = {
     "variant": [], "view": ["--screenshot", "picture.png"], "where": ["/World.a"],
     "zip": ["-o", "packed.usdz"],
 }
-OTHERS = {"completion", "convert", "doctor", "help", "manual", "new", "sweep", "test-runner",
-          "undo", "version"}
+OTHERS = {"completion", "convert", "doctor", "excite", "help", "identify", "manual", "new",
+          "sweep", "test-runner", "undo", "version"}
 
 
 class Case(unittest.TestCase):

@@ -27,7 +27,8 @@ SKIPPED = {
     "report hand.usda -o hand.html --compare": "it takes another engine",
     "record": "it takes Chromium",
     "view": "it takes Chromium, or goes on until it is ended",
-    "sweep": "it takes the Python package",
+    "sweep": "it takes the Python package", "excite": "it takes the Python package",
+    "identify": "it takes the Python package",
     "bench hand.usda --envs 1024": "it takes too long here",
     "completion": "it is for the files of a shell",
     "manual": "it opens a pager",
@@ -44,7 +45,7 @@ SCENE = ["new s.usda", "add s.usda /World/box=cube,body,collider --size 0.1 --at
 HINGE = "add s.usda /World/hinge=revolute --body1 /World/box --at 0,0,1.05 --axis Z"
 # What runs before the examples of a verb.
 BEFORE = {
-    "add": ["new s.usda"],
+    "add": ["new s.usda", "add s.usda /World/part_collision=mesh --file part.stl --at 0,0,9"],
     "cat": ["cat hand.usda --flatten -o geometry.usdc"],
     "check": ["check assets --write-baseline known.json"],
     "convert": ["convert hand.usda humanoid.xml"],

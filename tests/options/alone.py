@@ -50,6 +50,7 @@ WORDS = {
     "bench": ["main.usda", "--envs", "3", "--threads", "1", "--json", *RUN],
     "cat": ["main.usda"],
     "check": ["main.usda"],
+    "colliders": ["main.usda"],
     "compare": ["main.usda", "--duration", "0.02", "--engines", "mujoco,mujoco:heavy", "--json"],
     "convert": ["r.urdf", "made.usda"],
     "diff": ["main.usda", "other.usda"],
@@ -80,6 +81,8 @@ WORDS = {
 ELSEWHERE = {
     "view": "every_option.py", "record": "every_option.py",
     "report": "tests/view/test_report.py", "sweep": "tests/sweep",
+    "excite": "python/tests/test_excite.py",
+    "identify": "python/tests/test_identify.py",
     "completion": "has none", "doctor": "has none", "help": "has none", "manual": "has none",
     "test-runner": "has none", "version": "has none",
 }
@@ -90,6 +93,7 @@ VALUES = {
     "--at": "1,2,3", "--rotate": "10,20,30", "--scale": "1,2,3", "--size": "3", "--radius": "3",
     "--physics": "heavy", "--mask": "/World/Slider", "--load": "none", "--mute-layer": "parts.usda",
     "--reading": "unbound-friction=zero", "--pose": "Hinge=80deg", "--engine": "jolt",
+    "--deactivate": "Hinge", "--bypass": "Hinge", "--anchor": "Slider",
     "--set": "/World/Slider.physics:velocity=(0.5, 0, 0)", "--duration": "0.04", "--dt": "0.001",
     "--iterations": "1", "--fps": "20", "--seed": "4", "--commands": "commands.csv",
     "--output": "more.usda", "--vary": "gravity=0.5", "--threads": "2", "--envs": "2",
@@ -98,6 +102,7 @@ VALUES = {
     "--metrics": "position", "--fail-above": "position=1e-12mm", "--trials": "1",
     "--package": "x=.", "--arg": "x=y", "--name": "other", "--model": "x", "--gains": "5,1",
     "--armature": "0.2", "--friction": "0.2", "--collision": "sphere", "--density": "500",
+    "--assets": "meshes",
     "--variant": "heavy", "--tolerance": "1000", "--sample": "3", "--specs": "specs.toml",
     "--mimic": "rigid", "--session": "session.usda", "--variant-fallback": "Physics=heavy",
     "--full-arrays": "100000", "--meters": "0.01", "--kilograms": "0.001",
@@ -113,6 +118,7 @@ VALUES = {
     "--metadata": "author=Somebody",
     "--sequence": "Hinge", "--period": "1", "--amplitude": "2", "--time": "3", "--prim": "/World",
     "--extract": "out", "--simplify": "100", "--with": "/World/Slider", "--dof": "rotX",
+    "--colliders": "Slider", "--try": "hull", "--budget": "8", "--gap": "0.1",
 }
 OF_VERBS = {
     "add": {"--engine": "physx", "--physics": "heavy", "--set": "purpose=guide",
@@ -140,7 +146,8 @@ OF_VERBS = {
     "sim": {"--output": "run.csv"},
     "strip": {"--output": "other.usda"},
     "structure": {"--output": "elsewhere", "--engine": "newton"},
-    "tune": {"--test": "sine", "--gains": "gains.toml", "--output": "out.json"},
+    "tune": {"--test": "sine", "--gains": "gains.toml", "--output": "out.json",
+             "--anchor": "Arm"},
     "variant": {"--output": "other.usda"},
     "zip": {"--output": "other.usdz"},
 }
@@ -151,6 +158,8 @@ LIKE_BEFORE = {
     "bench --steps": "says when threads meet, which changes no answer",
     "check --reading": NOTHING,
     "check --for": NOTHING,
+    "colliders --physics": NOTHING,
+    "colliders --try": NOTHING,
     "convert --package": NOTHING,
     "convert --force": "nothing is in the way",
     "convert --update": "there is nothing to update: it is made",
@@ -195,6 +204,7 @@ LIKE_BEFORE = {
 # Errors that say what is missing without naming the option.
 REFUSED = {
     "add --engine": "no files for single engines",
+    "add --match": "is for what is put on prims",
     "set --engine": "no files for single engines",
     "pairs --unfilter": "lists the other",
     "pose --rename": "keeps no pose called",

@@ -147,6 +147,7 @@ PRINTING = {
     "bake": ["bake", "scene.usda", "-o", "-", "--duration", "0.1"],
     "cat": ["cat", "scene.usda"],
     "check": ["check", "fixable.usda"],
+    "colliders": ["colliders", "scene.usda"],
     "completion": ["completion", "bash"],
     "convert": ["convert", "arm.urdf", "made.usda", "--json"],
     "diff": ["diff", "base.usda", "over.usda"],
@@ -174,6 +175,8 @@ PRINTING = {
     "strip": ["strip", "base.usda", "-o", "-"],
     "structure": ["structure", "scene.usda", "--dry-run"],
     "sweep": ["sweep", "--help"],  # the rest is printed by Python
+    "excite": ["excite", "--help"],
+    "identify": ["identify", "--help"],
     "test-runner": ["test-runner", "layer", "scene.usda"],
     "tree": ["tree", "scene.usda"],
     "tune": ["tune", "scene.usda"],
@@ -196,7 +199,10 @@ WRITING = {
               ["check", "fixable.usda", "--write-baseline", "OUT.json"]],
     "convert": [["convert", "arm.urdf", "OUT.usda"], ["convert", "arm.urdf", "OUT"],
                 ["convert", "arm.urdf", "OUT.usdc"], ["convert", "arm.urdf", "OUT.usdz"],
-                ["convert", "base.usda", "OUT.xml"], ["convert", "base.usda", "OUT.urdf"]],
+                ["convert", "base.usda", "OUT.xml"], ["convert", "base.usda", "OUT.urdf"],
+                ["convert", "base.usda", "OUT.sdf"], ["convert", "base.usda", "OUT.srdf"],
+                ["convert", "base.usda", "OUT.py", "--format", "isaaclab"]],
+    "colliders": [],  # in place alone
     "completion": [],
     "diff": [],
     "doctor": [],
@@ -231,6 +237,8 @@ WRITING = {
               ["strip", "scene.usda", "--mute", "-o", "OUT.usda"]],
     "structure": [["structure", "base.usda", "-o", "OUT"]],
     "sweep": [],  # Python writes: python/tests/test_sweep_logic.py
+    "excite": [],  # and here: python/tests/test_excite.py
+    "identify": [],  # likewise: python/tests/test_identify.py
     "test-runner": [],
     "tree": [],
     "tune": [["tune", "scene.usda", "-o", f"OUT.{ending}"] for ending in ("html", "csv", "json")],
@@ -262,6 +270,10 @@ EDITS = {
                "--save"],
               ["set", "hand/inspire_hand.usda",
                "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit=70"])],
+    "colliders": [(["colliders", "hand/inspire_hand.usda", "--colliders", "r_base_link",
+                    "--budget", "64", "--gap", "1", "--save"],
+                   ["set", "hand/inspire_hand.usda",
+                    "/inspire_hand/Physics/right_index_1_joint.physics:upperLimit=70"])],
     "add": [(["add", "base.usda", "/World/ball=sphere,collider"],
              ["add", "base.usda", "/World/box=filtered-pair", "--with", "/World"])],
     "remove": [(["remove", "scene.usda", "/World/box=mass"],

@@ -22,8 +22,8 @@ OPTIONS = ("--sandbox", "--search-path", "--allow-read")
 MARK = "CANARY"
 
 # What reads no asset.
-WITHOUT = {"doctor", "help", "version", "completion", "manual", "new", "sweep", "undo",
-           "test-runner list-op", "test-runner schemas"}
+WITHOUT = {"doctor", "help", "version", "completion", "manual", "new", "sweep", "undo", "excite",
+           "identify", "test-runner list-op", "test-runner schemas"}
 # Verb -> its arguments behind the asset; OUT is a folder.
 ROWS = {
     "add": ["/A/new=scope", "--dry-run"],
@@ -31,6 +31,7 @@ ROWS = {
     "bench": ["--duration", "0.01"],
     "cat": ["--flatten"],
     "check": [],
+    "colliders": [],
     "compare": ["--engines", "mujoco,mujoco", "--duration", "0.01"],
     "convert": ["OUT/c.xml"],
     "diff": ["OWN", "--composed"],
