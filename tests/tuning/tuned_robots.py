@@ -134,18 +134,22 @@ class Robot:
                   if drive["to"]["dampingRatio"] > 1.001 * RATIO
                   and any("own damping of" in note for note in drive["notes"])}
         for engine in answer["engines"]:
-            found = self.counts[engine["engine"]] = collections.Counter()
-            for result in engine["results"]:
-                if result["verdict"] == "skipped":
-                    continue
-                word, fault = verdict(result, damped)
-                found[word] += 1
-                joint = result["joint"].rsplit("/", 1)[1]
-                if fault or word in ("open", "unstable"):
-                    self.faults.append(f"{self.name} {engine['engine']} {joint}: "
-                                       f"{fault or word + ' ' + str(result.get('step'))}")
-            self.joints = max(self.joints, sum(found.values()))
+            self.judge(engine, damped)
         return self
+
+    def judge(self, engine, damped):
+        """Counts the verdicts of one engine, and keeps what is not explained."""
+        found = self.counts[engine["engine"]] = collections.Counter()
+        for result in engine["results"]:
+            if result["verdict"] == "skipped":
+                continue
+            word, fault = verdict(result, damped)
+            found[word] += 1
+            joint = result["joint"].rsplit("/", 1)[1]
+            if fault or word in ("open", "unstable"):
+                self.faults.append(f"{self.name} {engine['engine']} {joint}: "
+                                   f"{fault or word + ' ' + str(result.get('step'))}")
+        self.joints = max(self.joints, sum(found.values()))
 
 
 def page_of(robots, engines):
