@@ -507,7 +507,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       .file_only();
   verb.add_option("output,-o,--output", options->output,
                   "A .usda, .usdc, .usd or .usdz file, or a folder for Asset Structure 3.0; for an "
-                  "asset an .xml (MJCF), .urdf, .sdf, .srdf or .py file; -o OUTPUT says the same")
+                  "asset an .xml (MJCF), .urdf, .sdf, .srdf or .py file; also as -o or --output")
       .required();
   verb.add_option("--package", options->packages,
                   "NAME=DIR: where a ROS package or a model of Gazebo is; without "

@@ -177,7 +177,7 @@ class Files(support.FilesTestCase):
         self.assertIn("<robot", (self.folder / "arm.urdf").read_text())
         answer = tenon.convert(interface, self.folder / "arm.sdf", physics="physics")
         self.assertGreater(answer["links"], 0)
-        self.assertIn("sdf.left-out", {row["rule"] for row in answer["diagnostics"]})
+        self.assertIn("sdf.left-out", {row.rule for row in answer["diagnostics"]})
         tenon.convert(interface, self.folder / "arm_cfg.py", format="isaaclab")
         self.assertIn("stiffness=10", (self.folder / "arm_cfg.py").read_text())
         with self.assertRaises(tenon.InvalidError):

@@ -238,15 +238,16 @@ TriangleMesh turned(const std::vector<std::pair<double, double>>& profile) {
 
 /// Rings of two half balls of `radius`, whose middles are `half_height` away from the origin.
 std::vector<std::pair<double, double>> round_profile(double radius, double half_height) {
+  constexpr int kHalf = kAround / 2;
   std::vector<std::pair<double, double>> profile;
-  for (int i = 0; i <= kAround / 2; ++i) {
-    const double angle = M_PI * i / (kAround / 2);
+  for (int i = 0; i <= kHalf; ++i) {
+    const double angle = M_PI * i / kHalf;
     const double height = i * 4 < kAround ? -half_height : i * 4 > kAround ? half_height : 0;
     if (i * 4 == kAround && half_height > 0) {
       profile.emplace_back(-half_height, radius);
       profile.emplace_back(half_height, radius);
     } else {
-      const bool is_end = i == 0 || i == kAround / 2;
+      const bool is_end = i == 0 || i == kHalf;
       profile.emplace_back(height - radius * std::cos(angle),
                            is_end ? 0 : radius * std::sin(angle));
     }

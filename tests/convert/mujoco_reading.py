@@ -100,7 +100,7 @@ def open_end(value, infinity):
 def read_again(read, *arguments):
     """What MuJoCo reads. It refuses a good number where errno was set by something else meanwhile,
     as happens in threads and more often on a busy machine; read once more, the number is good."""
-    for _ in range(12):
+    for _ in range(40):
         try:
             return read(*arguments)
         except ValueError as error:

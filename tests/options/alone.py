@@ -147,7 +147,7 @@ OF_VERBS = {
     "strip": {"--output": "other.usda"},
     "structure": {"--output": "elsewhere", "--engine": "newton"},
     "tune": {"--test": "sine", "--gains": "gains.toml", "--output": "out.json",
-             "--anchor": "Arm"},
+             "--anchor": "Arm", "--overshoot": "5%", "--payload": "0.5"},
     "variant": {"--output": "other.usda"},
     "zip": {"--output": "other.usdz"},
 }

@@ -320,7 +320,8 @@ def _held(raw: RawLog, commands: RawLog, given: Found) -> Found:
 def _forward(values: Array) -> Array:
     """Each empty cell takes what was before it."""
     at = np.where(np.isnan(values), 0, np.arange(len(values)))
-    return values[np.maximum.accumulate(at)]
+    filled: Array = values[np.maximum.accumulate(at)]
+    return filled
 
 
 def _log_of(raw: RawLog, found: Found, joints: Sequence[AssetJoint]) -> Log:

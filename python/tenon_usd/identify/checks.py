@@ -57,7 +57,8 @@ def _room(joint: AssetJoint) -> float:
 
 def _outside(values: Array, joint: AssetJoint) -> Array:
     """By how much each value is beyond the limits [rad or m]; 0 within them."""
-    return np.maximum(np.maximum(joint.lower - values, values - joint.upper), 0.0)
+    beyond: Array = np.maximum(np.maximum(joint.lower - values, values - joint.upper), 0.0)
+    return beyond
 
 
 def _reach(joint: AssetJoint) -> float:

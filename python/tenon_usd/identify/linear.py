@@ -73,7 +73,8 @@ def _bounded(optimize: Any, matrix: Array, wanted: Array, low: Array, high: Arra
     size = np.where(size > 0, size, 1.0)
     room = np.where(high > low, high, low + 1e-12)
     done = optimize.lsq_linear(matrix / size, wanted, bounds=(low * size, room * size))
-    return np.asarray(done.x) / size
+    found: Array = np.asarray(done.x) / size
+    return found
 
 
 def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],

@@ -82,7 +82,7 @@ def commands(world: World, seed: int, duration: float, period: float) -> Log:
     """Position commands of all drives that hold positions: sums of sines of other phases in each
     half, with soft steps, within the limits of joints. Raises InvalidError where no drive does."""
     random = np.random.default_rng([seed, 1])
-    times = np.arange(0, duration + 0.5 * period, period)
+    times: Array = np.asarray(np.arange(0, duration + 0.5 * period, period), np.float64)
     scene, names = world.scene, world.drive_names
     start = dict(zip(world.joint_names, world.joint_positions[0]))
     followers = {joint.path for joint in scene.joints if len(joint.mimics)}

@@ -122,7 +122,7 @@ class MotorReader {
     for (const scene::Mimic& mimic : scene_.joints[number].mimics) {
       const auto leader = number_of_[mimic.leader];
       if (follower && leader) {
-        motors_[*follower].leader = *leader;
+        motors_[*follower].leader = leader;
         motors_[*follower].multiplier = mimic.multiplier;
         motors_[*follower].offset = mimic.offset;
       }

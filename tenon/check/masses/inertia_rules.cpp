@@ -79,6 +79,11 @@ LongAxis long_axis(const Mat3d& inertia) {
   return {rotate(principal.axes, unit), least > 0 ? principal.moments[order[1]] / least : 1};
 }
 
+bool holds(const Extent& extent, const Vec3d& point) {
+  return extent.low[0] <= point[0] && point[0] <= extent.high[0] && extent.low[1] <= point[1] &&
+         point[1] <= extent.high[1] && extent.low[2] <= point[2] && point[2] <= extent.high[2];
+}
+
 bool authors_any(const stage::Prim& prim, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&prim](const char* name) {
     return prim.attribute(name).has_authored_value();
@@ -102,16 +107,15 @@ void each_author(const Subject& subject, std::initializer_list<const char*> name
 // S-44
 void check_outside_center(const Subject& subject, Reporter& report) {
   each_author(subject, {"physics:centerOfMass"}, [&](Index i, const Body& body, const auto& prim) {
-    const scene::SolidIntegrals solid = solid_of(subject, i);
-    if (!(solid.volume > 0)) {
+    const Extent extent = extent_of(subject, i);
+    const double from_middle = length(body.center_of_mass - extent.middle());
+    if (holds(extent, body.center_of_mass) || from_middle > kCentersFar * extent.half_diagonal()) {
       return;
     }
+    const scene::SolidIntegrals solid = solid_of(subject, i);
     const double reach = half_diagonal_of(solid.inertia, solid.volume);
     const double distance = length(body.center_of_mass - solid.center);
-    const Extent extent = extent_of(subject, i);
-    const bool far =
-        length(body.center_of_mass - extent.middle()) > kCentersFar * extent.half_diagonal();
-    if (distance > (1 + kOutside) * reach && !far) {
+    if (solid.volume > 0 && distance > (1 + kOutside) * reach) {
       report.at(prim, "physics:centerOfMass",
                 "the centre of mass is " + digits(distance) +
                     " m away from the middle of the colliders, which reach about " + digits(reach) +
