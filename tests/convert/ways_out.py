@@ -157,7 +157,9 @@ def check_sdf(name, asset, work, dice):
         expect(f"{name}: SDF", False, answer["diagnostics"][-1:])
         return 0.0
     model = xml.parse(file).getroot().find("model")
-    expect(f"{name}: SDF links", answer["links"] >= len(model.findall("link")))
+    for part in ("link", "joint"):
+        expect(f"{name}: number of {part}s", answer[part + "s"] == len(model.findall(part)),
+               (answer[part + "s"], len(model.findall(part))))
     for uri in model.iter("uri"):
         expect(f"{name}: the mesh {uri.text} is there", (work / uri.text).exists())
     before = Places(asset)

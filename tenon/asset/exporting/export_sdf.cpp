@@ -16,14 +16,20 @@
 namespace tenon {
 namespace {
 
-/// Without frames, and without the world unless it has shapes.
-std::size_t links_in(const robot::RobotModel& model) {
+/// The links and joints that are written: frames are neither, nor is the world without shapes, and
+/// what floats has no joint. A world with shapes is a link that a joint holds.
+void count_parts(const robot::RobotModel& model, ExportedUrdf& result) {
   const sdf::Carriers carriers = sdf::carriers_of(model);
   const robot::Link& root = model.links[carriers.root];
-  const bool is_world = carriers.root_is_world && root.visuals.empty() && root.colliders.empty();
+  const bool has_shapes = !root.visuals.empty() || !root.colliders.empty();
   const auto frames =
       static_cast<std::size_t>(std::count(carriers.is_frame.begin(), carriers.is_frame.end(), 1));
-  return model.links.size() - frames - (is_world ? 1 : 0);
+  result.links = model.links.size() - frames - (carriers.root_is_world && !has_shapes ? 1 : 0);
+  const auto floating = static_cast<std::size_t>(std::count_if(
+      model.joints.begin(), model.joints.end(),
+      [](const robot::Joint& joint) { return joint.kind == robot::JointKind::Floating; }));
+  result.joints =
+      model.joints.size() - frames - floating + (carriers.root_is_world && has_shapes ? 1 : 0);
 }
 
 }  // namespace
@@ -47,8 +53,7 @@ Result<ExportedUrdf> export_sdf(const stage::Stage& stage, const std::string& fo
   ExportedUrdf result;
   result.meshes = name_obj_files(model, folder);
   result.text = sdf::write_sdf(model);
-  result.links = links_in(model);
-  result.joints = model.joints.size();
+  count_parts(model, result);
   return result;
 }
 
