@@ -87,7 +87,8 @@ def judgements_of_engines():
                                         "build/release/bin/tenon", "all"],
                     "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("tuned_robots", ["{python}", "-B", "tests/tuning/tuned_robots.py", ".",
-                                     "build/release/bin/tenon", "docs/tuned-robots.md"],
+                                     "build/release/bin/tenon", "docs/tuned-robots.md",
+                                     "--robots", "15"],
                     "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("mass_matrices", ["{python}", "-B", "tests/dynamics/mujoco_matrices.py", ".",
                                       "build/release/bin/tenon", "1000"],
