@@ -175,7 +175,7 @@ scene::TriangleMesh hull_surface(const mjModel& model, const mjData& data, int g
     surface.points.push_back(
         placed_point(data, geom, points + static_cast<std::ptrdiff_t>(3) * point));
   }
-  const int* face = graph + 2 + 3 * corners + 3 * faces;
+  const int* face = graph + (2 + 3 * (static_cast<std::ptrdiff_t>(corners) + faces));
   for (int i = 0; i < faces; ++i, face += 3) {
     surface.triangles.push_back({{number[face[0]], number[face[1]], number[face[2]]}});
   }
