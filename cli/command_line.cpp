@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/nearest_name.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 
 namespace tenon::cli {
@@ -72,14 +73,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
     names.push_back(command->get_name());
   }
   return names;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
 }
 
 /// The innermost command that was named.
@@ -148,9 +141,9 @@ Error leftover(const CLI::App& app, const std::vector<std::string>& rest) {
   }
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty()) {
-    return usage_error(app, spoken(app) + " knows no \"" + rest.front() + "\"",
-                       "usage.unknown-verb",
-                       did_you_mean(rest.front(), commands, "choose one of: " + listed(commands)));
+    return usage_error(
+        app, spoken(app) + " knows no \"" + rest.front() + "\"", "usage.unknown-verb",
+        did_you_mean(rest.front(), commands, "choose one of: " + comma_list(commands)));
   }
   return usage_error(app, "\"" + rest.front() + "\" is one argument too many",
                      "usage.too-many-arguments");
@@ -183,7 +176,7 @@ Error missing(const CLI::App& app, const std::vector<std::string>& rest) {
   if (!rest.empty()) {
     return leftover(app, rest);
   }
-  return usage_error(app, spoken(app) + " needs one of: " + listed(command_names(app)),
+  return usage_error(app, spoken(app) + " needs one of: " + comma_list(command_names(app)),
                      "usage.missing-verb");
 }
 
@@ -331,7 +324,7 @@ Option Option::one_of(const std::vector<std::string>& choices) const {
   const std::string name = info_->longest_name();
   hold_value_to(option_, [choices, name](const std::string& value) {
     const bool known = std::find(choices.begin(), choices.end(), value) != choices.end();
-    const std::string all = "one of " + listed(choices);
+    const std::string all = "one of " + comma_list(choices);
     return known ? std::string()
                  : name + " is " + all + "; \"" + value + "\" is none of them" +
                        (nearest_name(value, choices).empty()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 
 namespace tenon::cli {
@@ -27,10 +28,7 @@ std::string OptionInfo::signature() const {
     const std::string name = list ? names.front() + "..." : names.front();
     return required ? name : "[" + name + "]";
   }
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
+  const std::string text = comma_list(names);
   if (value.empty()) {
     return text;
   }

@@ -31,7 +31,7 @@ void add_masks(const Command& verb, dynamics::Masks& masks) {
       .repeatable()
       .value_name("PRIM");
   verb.add_option("--bypass", masks.bypass,
-                  "Hold the sides of a joint as they stand at the start, or skip one link, "
+                  "Hold the sides of a joint where they are at the start, or skip one link, "
                   "whose joints hang on the link before it")
       .repeatable()
       .value_name("PRIM");

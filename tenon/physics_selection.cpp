@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/comma_list.h"
 
 namespace tenon {
 namespace {
@@ -29,10 +30,7 @@ bool has_variant(const stage::Prim& prim, const std::string& variant) {
 }
 
 Error no_variant(const stage::Stage& stage, const stage::Prim& prim, const std::string& variant) {
-  std::string known;
-  for (const std::string& name : prim.variant_names(kPhysicsSet)) {
-    known += (known.empty() ? "" : ", ") + name;
-  }
+  const std::string known = comma_list(prim.variant_names(kPhysicsSet));
   return Error(ErrorCode::NotFound, std::string("variant set \"") + kPhysicsSet +
                                         "\" has no variant \"" + variant + "\"")
       .in_file(stage.root_layer().identifier())

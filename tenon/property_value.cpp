@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/base/text/quoted_text.h"
 #include "tenon/formats/text/write/value_text.h"
@@ -114,10 +115,7 @@ Result<layer::Value> read_value(const PropertyAssignment& assignment, Token type
   if (token != nullptr && definition != nullptr && !definition->allowed_tokens.empty()) {
     const auto& allowed = definition->allowed_tokens;
     if (std::find(allowed.begin(), allowed.end(), *token) == allowed.end()) {
-      std::string known;
-      for (const Token& name : allowed) {
-        known += (known.empty() ? "" : ", ") + name.str();
-      }
+      const std::string known = comma_list(allowed, &Token::str);
       return bad_value(assignment, "token of this schema", "choose one of: " + known);
     }
   }

@@ -4,6 +4,9 @@
 
 #include <array>
 
+#include "cli/python/python_program.h"
+#include "cli/report.h"
+
 namespace tenon::cli {
 namespace {
 
@@ -20,24 +23,7 @@ constexpr std::array kReadingRows{
     PythonOption{"--episode", "NUMBER", "Of a data set of LeRobot"},
 };
 
-}  // namespace
-
-void add_python_options(const Command& verb, std::span<const PythonOption> rows,
-                        PythonArguments& arguments) {
-  for (const PythonOption& row : rows) {
-    std::vector<std::string>& values = arguments.values.emplace_back();
-    bool& flag = arguments.flags.emplace_back();
-    if (*row.value == '\0') {
-      verb.add_flag(row.names, flag, row.help);
-      continue;
-    }
-    const Option option = verb.add_option(row.names, values, row.help).value_name(row.value);
-    if (row.repeatable) {
-      option.repeatable();
-    }
-  }
-}
-
+/// The words of a command line that the package reads: "--name=value", flags, "--", places.
 std::vector<std::string> python_words(std::span<const PythonOption> rows,
                                       const PythonArguments& arguments, const Globals& globals) {
   std::vector<std::string> words;
@@ -64,6 +50,32 @@ std::vector<std::string> python_words(std::span<const PythonOption> rows,
     words.insert(words.end(), places.begin(), places.end());
   }
   return words;
+}
+
+}  // namespace
+
+void add_python_options(const Command& verb, std::span<const PythonOption> rows,
+                        PythonArguments& arguments) {
+  for (const PythonOption& row : rows) {
+    std::vector<std::string>& values = arguments.values.emplace_back();
+    bool& flag = arguments.flags.emplace_back();
+    if (*row.value == '\0') {
+      verb.add_flag(row.names, flag, row.help);
+      continue;
+    }
+    const Option option = verb.add_option(row.names, values, row.help).value_name(row.value);
+    if (row.repeatable) {
+      option.repeatable();
+    }
+  }
+}
+
+int run_python_verb(const Globals& globals, const char* verb, const std::string& subject,
+                    const char* module, std::span<const PythonOption> rows,
+                    const PythonArguments& arguments) {
+  Report report(globals, verb, subject);
+  const Result<int> code = run_python_program(module, python_words(rows, arguments, globals));
+  return code ? *code : report.fail(code.error());
 }
 
 std::span<const PythonOption> reading_rows() { return kReadingRows; }

@@ -33,10 +33,12 @@ struct PythonArguments {
 void add_python_options(const Command& verb, std::span<const PythonOption> rows,
                         PythonArguments& arguments);
 
-/// The words of a command line that the package reads: "--name=value", flags, "--", places. `rows`
-/// are those of add_python_options(), in its order.
-std::vector<std::string> python_words(std::span<const PythonOption> rows,
-                                      const PythonArguments& arguments, const Globals& globals);
+/// Runs a module of the package with `arguments` of a verb, which `rows` named in this order to
+/// add_python_options(), and -> its exit code. Without the package the exit code is 4, with a
+/// report of `verb` about `subject`.
+int run_python_verb(const Globals& globals, const char* verb, const std::string& subject,
+                    const char* module, std::span<const PythonOption> rows,
+                    const PythonArguments& arguments);
 
 /// How logs of robots are read, for the verbs that read them.
 std::span<const PythonOption> reading_rows();

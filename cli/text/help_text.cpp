@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include "tenon/base/text/comma_list.h"
+
 namespace tenon::cli {
 namespace {
 
@@ -122,10 +124,7 @@ std::string option_help(const OptionInfo& option) {
   const bool named = std::all_of(option.choices.begin(), option.choices.end(),
                                  [&](const std::string& c) { return text.find(c) != text.npos; });
   if (!named) {
-    std::string choices;
-    for (const std::string& choice : option.choices) {
-      choices += (choices.empty() ? "" : ", ") + choice;
-    }
+    const std::string choices = comma_list(option.choices);
     text += " (" + choices + ")";
   }
   return text;

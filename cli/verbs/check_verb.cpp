@@ -17,6 +17,7 @@
 #include "tenon/asset/checking/check_assets.h"
 #include "tenon/asset/checking/checked_json.h"
 #include "tenon/asset/checking/sarif.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/check/rule.h"
@@ -41,14 +42,6 @@ struct CheckArguments {
   std::string baseline;
   std::string write_baseline;
 };
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
 
 Result<CheckAssetsOptions> check_options(const Globals& globals, const CheckArguments& options) {
   CheckAssetsOptions wanted;
@@ -91,7 +84,7 @@ void print_findings(const CheckedAssets& outcome, const Globals& globals, bool t
     if (!reported.suppressed && shown) {
       const std::vector<std::string>& variants = reported.finding.variants;
       findings.push_back({&reported.finding.diagnostic,
-                          variants.empty() ? "" : " (Physics=" + joined(variants) + ")"});
+                          variants.empty() ? "" : " (Physics=" + comma_list(variants) + ")"});
     }
   }
   for (const std::string& line : diagnostic_lines(findings, color, globals.verbose)) {

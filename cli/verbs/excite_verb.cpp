@@ -6,9 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/python/python_program.h"
 #include "cli/python/python_verb.h"
-#include "cli/report.h"
 #include "cli/verb.h"
 
 namespace tenon::cli {
@@ -36,11 +34,9 @@ struct ExciteArguments {
 };
 
 int run_excite(const Globals& globals, ExciteArguments& arguments) {
-  Report report(globals, "excite", arguments.asset);
   arguments.options.places = {{arguments.asset}};
-  const Result<int> code = run_python_program(
-      "tenon_usd.identify.excite_command", python_words(kExciteRows, arguments.options, globals));
-  return code ? *code : report.fail(code.error());
+  return run_python_verb(globals, "excite", arguments.asset, "tenon_usd.identify.excite_command",
+                         kExciteRows, arguments.options);
 }
 
 }  // namespace

@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/python/python_program.h"
 #include "cli/python/python_verb.h"
-#include "cli/report.h"
 #include "cli/verb.h"
 
 namespace tenon::cli {
@@ -24,7 +22,8 @@ constexpr std::array kIdentifyRows{
                  "logs usually tell",
                  true},
     PythonOption{"--parameters", "FILE", "The same as tables [[parameter]] of a TOML file"},
-    PythonOption{"--prior", "FAMILY:REGEX=VALUE,DEVIATION", "What is known of it", true},
+    PythonOption{"--prior", "FAMILY:REGEX=VALUE,DEVIATION",
+                 "A value that is known, and its deviation", true},
     PythonOption{"--hold", "",
                  "What the logs do not tell keeps the asset's number, instead of an error"},
     PythonOption{"--held-out", "LOG", "A log that is not fitted, to prove the result on", true},
@@ -75,11 +74,9 @@ struct IdentifyArguments {
 };
 
 int run_identify(const Globals& globals, IdentifyArguments& arguments) {
-  Report report(globals, "identify", arguments.asset);
   arguments.options.places = {{arguments.asset}, arguments.logs};
-  const Result<int> code = run_python_program("tenon_usd.identify.identify_command",
-                                              python_words(all_rows(), arguments.options, globals));
-  return code ? *code : report.fail(code.error());
+  return run_python_verb(globals, "identify", arguments.asset,
+                         "tenon_usd.identify.identify_command", all_rows(), arguments.options);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "cli/verb.h"
+#include "tenon/base/text/comma_list.h"
 
 namespace tenon::cli {
 namespace {
@@ -53,10 +54,7 @@ void RecordArguments::add_looks_to(const Command& verb) {
   verb.add_option("--background", options.background,
                   "light, dark, a colour such as #ffffff, or transparent (of .png)")
       .value_name("COLOUR");
-  std::string layers;
-  for (const std::string& name : record_layers()) {
-    layers += (layers.empty() ? "" : ", ") + name;
-  }
+  const std::string layers = comma_list(record_layers());
   verb.add_option("--show", options.show, "Show these, too: " + layers)
       .split_at_commas()
       .repeatable()

@@ -8,9 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/python/python_program.h"
 #include "cli/python/python_verb.h"
-#include "cli/report.h"
 #include "cli/verb.h"
 
 namespace tenon::cli {
@@ -43,11 +41,9 @@ struct SweepArguments {
 };
 
 int run_sweep(const Globals& globals, SweepArguments& arguments) {
-  Report report(globals, "sweep", arguments.plan);
   arguments.options.places = {{arguments.plan}};
-  const Result<int> code = run_python_program("tenon_usd.sweep.command",
-                                              python_words(kSweepRows, arguments.options, globals));
-  return code ? *code : report.fail(code.error());
+  return run_python_verb(globals, "sweep", arguments.plan, "tenon_usd.sweep.command", kSweepRows,
+                         arguments.options);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@ world. Nothing depends on the number of threads.
 
 from __future__ import annotations
 
-import operator
 import os
 import warnings
 from collections.abc import Iterable, Sequence

@@ -397,10 +397,12 @@ class Command(Robot):
             code, _, err = self.run_main(*words)
             self.assertEqual(code, 2, (words, err))
             self.assertIn(said, err)
-        with mock.patch.dict(sys.modules, {"scipy.optimize": None}):
-            code, _, err = self.run_main(self.asset, path)
-        self.assertEqual(code, 4)
-        self.assertIn("pip install 'tenon-usd[identify]'", err)
+        nothing = {name: None for name in ("scipy.optimize", "scipy.signal")}
+        for words in ((), ("--check",)):
+            with self.subTest(words), mock.patch.dict(sys.modules, nothing):
+                code, _, err = self.run_main(self.asset, path, *words)
+                self.assertEqual(code, 4)
+                self.assertIn("pip install 'tenon-usd[identify]'", err)
 
     def test_options_are_those_of_the_program(self):
         done = subprocess.run([PROGRAM, "help", "--json"], capture_output=True, text=True,

@@ -20,16 +20,8 @@
 #include "tenon/scene/shapes/mesh_inertia.h"
 
 namespace tenon::approximate {
-namespace {
 
-using scene::Shape;
-using scene::ShapeKind;
-using scene::TriangleMesh;
-
-constexpr double kTolerance = 0.005;  // of the size of the mesh
-constexpr int kAround = 64;           // corners of what is round
-
-double size_of(const TriangleMesh& mesh) {
+double diagonal_of(const scene::TriangleMesh& mesh) {
   Vec3d low{{kInfinity, kInfinity, kInfinity}};
   Vec3d high = -low;
   for (const Vec3d& point : mesh.points) {
@@ -41,6 +33,15 @@ double size_of(const TriangleMesh& mesh) {
   return mesh.points.empty() ? 0 : length(high - low);
 }
 
+namespace {
+
+using scene::Shape;
+using scene::ShapeKind;
+using scene::TriangleMesh;
+
+constexpr double kTolerance = 0.005;  // of the size of the mesh
+constexpr int kAround = 64;           // corners of what is round
+
 /// A place as a target sees it.
 struct Seen {
   double distance = kInfinity;  // below zero: inside, and by how much at least
@@ -50,7 +51,7 @@ struct Seen {
 /// A solid within planes.
 class ConvexPart {
  public:
-  explicit ConvexPart(const TriangleMesh& mesh) : tree_(mesh), slack_(1e-9 * size_of(mesh)) {
+  explicit ConvexPart(const TriangleMesh& mesh) : tree_(mesh), slack_(1e-9 * diagonal_of(mesh)) {
     for (const Vec3i& t : mesh.triangles) {
       const auto corner = [&](std::size_t i) {
         return mesh.points[static_cast<std::size_t>(t[i])];
@@ -352,7 +353,7 @@ ShapeSurface surface_of(const Shape& shape) {
 }
 
 SurfaceGap surface_gap(const TriangleMesh& mesh, const ShapeSurface& shape) {
-  const double tolerance = kTolerance * size_of(mesh);
+  const double tolerance = kTolerance * diagonal_of(mesh);
   const MeshTarget mesh_target(mesh);
   Farthest<MeshTarget> outside(mesh_target, tolerance);
   for (const TriangleMesh& part : shape.parts) {

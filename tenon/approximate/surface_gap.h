@@ -37,6 +37,9 @@ struct SurfaceGap {
 /// limits::kSurfaceParts ends the search.
 SurfaceGap surface_gap(const scene::TriangleMesh& mesh, const ShapeSurface& shape);
 
+/// The diagonal of the box along the axes around the points of a mesh [m]; 0 without points.
+double diagonal_of(const scene::TriangleMesh& mesh);
+
 /// The same points and triangles, points in one place made one: what readers of STL leave open
 /// may be closed then.
 scene::TriangleMesh welded(const scene::TriangleMesh& mesh);

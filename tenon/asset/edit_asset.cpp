@@ -451,7 +451,9 @@ class AssetEditor::State {
     if (sites_.contains(spec)) {
       return false;
     }
-    Unproved made{&edit, {}, {}, lost_arcs(*selection.stage, edit.object, file.layer)};
+    const std::size_t lost =
+        edit.arc ? lost_arcs(*selection.stage, edit.object, file.layer) : std::size_t{0};
+    Unproved made{&edit, {}, {}, lost};
     if (edit.is_about_value()) {
       const stage::Prim prim = selection.stage->prim(edit.object.prim());
       const layer::LayerPtr layer = selection.editor.layer(file.layer);

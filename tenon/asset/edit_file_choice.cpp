@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "tenon/asset/editing/whole_prim_edits.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
@@ -67,14 +68,6 @@ Error no_file(const FileQuestion& q, const std::string& message, const std::stri
       .with_fix(fix);
 }
 
-std::string listed(const std::vector<std::string>& layers) {
-  std::string text;
-  for (const std::string& layer : layers) {
-    text += (text.empty() ? "" : ", ") + file_part(layer);
-  }
-  return text;
-}
-
 /// By its path or the end of it.
 Result<FileChoice> named_file(const FileQuestion& q, const std::string& name) {
   const std::string absolute = bytes::absolute_file_path(name);
@@ -92,26 +85,7 @@ Result<FileChoice> named_file(const FileQuestion& q, const std::string& name) {
   }
   return no_file(
       q, (found.empty() ? "no layer of the asset is called " : "several layers are called ") + name,
-      "choose one of: " + listed(q.layers));
-}
-
-/// An opinion on the property, or on the list of API schemas.
-bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
-  if (edit.is_about_prim() || edit.is_about_metadata()) {
-    return says(*source.layer, *source.spec, edit);
-  }
-  if (edit.kind == AssetEdit::Kind::Connect) {
-    return source.spec->has(fields::connectionPaths);
-  }
-  if (!edit.is_about_api()) {
-    return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
-           source.spec->has(fields::targetPaths) || source.spec->has(fields::spline);
-  }
-  const auto* op = source.spec->get<layer::ListOp<Token>>(fields::apiSchemas);
-  if (op == nullptr) {
-    return false;
-  }
-  return edit.kind == AssetEdit::Kind::ApplyApi || edit::adds(*op, edit.api);
+      "choose one of: " + comma_list(q.layers, file_part));
 }
 
 /// Layers with an opinion, strongest first.
@@ -275,6 +249,24 @@ Result<FileChoice> file_of_variant(const FileQuestion& q, const VariantPlace& pl
 }
 
 }  // namespace
+
+bool speaks(const stage::OpinionSource& source, const AssetEdit& edit) {
+  if (edit.is_about_prim() || edit.is_about_metadata()) {
+    return says(*source.layer, *source.spec, edit);
+  }
+  if (edit.kind == AssetEdit::Kind::Connect) {
+    return source.spec->has(fields::connectionPaths);
+  }
+  if (!edit.is_about_api()) {
+    return source.spec->has(fields::default_value) || source.spec->has(fields::timeSamples) ||
+           source.spec->has(fields::targetPaths) || source.spec->has(fields::spline);
+  }
+  const auto* op = source.spec->get<layer::ListOp<Token>>(fields::apiSchemas);
+  if (op == nullptr) {
+    return false;
+  }
+  return edit.kind == AssetEdit::Kind::ApplyApi || edit::adds(*op, edit.api);
+}
 
 stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit) {
   if (edit.kind != AssetEdit::Kind::DefinePrim) {

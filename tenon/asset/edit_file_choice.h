@@ -41,6 +41,9 @@ stage::Prim prim_for(const stage::Stage& stage, const AssetEdit& edit);
 std::optional<stage::LayerSite> site_for(const stage::Stage& stage, const AssetEdit& edit,
                                          const std::string& layer);
 
+/// A layer has an opinion on what `edit` is about: the value, the targets, the list of API schemas.
+bool speaks(const stage::OpinionSource& source, const AssetEdit& edit);
+
 /// "physx.usda" of "/a/b/physx.usda".
 std::string file_part(const std::string& path);
 

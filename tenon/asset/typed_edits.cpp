@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/check/overlaps/overlaps.h"
 
@@ -75,15 +76,6 @@ Edits pair_edits(Path a, Path b) {
   AssetEdit pairs = set(a, "physics:filteredPairs", b.str());
   pairs.kind = AssetEdit::Kind::AddTargets;
   return Edits{applied(a, "PhysicsFilteredPairsAPI"), std::move(pairs)};
-}
-
-template <class Names>
-std::string listed(const Names& names) {
-  std::string text;
-  for (const char* name : names) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return text;
 }
 
 /// The instance of PhysicsDriveAPI that joints of one degree of freedom have; empty for others.
@@ -153,7 +145,7 @@ Result<Edits> drive_edits(const stage::Stage& stage, const std::string& text) {
     }
     if (!known) {
       return bad("unknown key \"" + key + "\"",
-                 "a drive takes " + listed(kKeys) + ": write " + form);
+                 "a drive takes " + comma_list(kKeys) + ": write " + form);
     }
     edits.push_back(set(drive.prim, "drive:" + instance + ":physics:" + key, part.substr(at + 1)));
   }

@@ -23,6 +23,9 @@ struct Extent {
 
 Extent extent_of(const Subject& subject, scene::Index body);
 
+/// From here on a centre of mass is far from a body, in half diagonals from its middle.
+inline constexpr double kFarCenter = 10;
+
 /// Density of a body whose mass is authored or follows from densities [kg/m^3]; none without a
 /// volume.
 std::optional<double> mean_density(const Subject& subject, scene::Index body);

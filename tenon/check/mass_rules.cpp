@@ -17,7 +17,6 @@ using scene::Body;
 using scene::Index;
 
 constexpr double kTinyMass = 1e-5;      ///< [kg]: ten milligrams
-constexpr double kFarCenter = 10;       ///< in half diagonals of the colliders
 constexpr double kLargeInertia = 10;    ///< in m r^2 of the colliders
 constexpr double kSmallInertia = 1e-4;  ///< in m r^2 of the colliders
 constexpr double kSmallReach = 0.01;    ///< [m] of bodies without colliders

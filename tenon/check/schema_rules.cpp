@@ -110,7 +110,7 @@ std::vector<std::string_view> schema_names(bool apis) {
 }  // namespace
 
 void check_unknown_type(const Subject& subject, Reporter& report) {
-  NearestNames nearest_names(schema_names(false));
+  NearestNames nearest_names([] { return schema_names(false); });
   for (const stage::Prim& prim : subject.prims) {
     const Token type = prim.type_name();
     if (type.empty() || schema::Registry::instance().find(type) != nullptr ||
@@ -126,7 +126,7 @@ void check_unknown_type(const Subject& subject, Reporter& report) {
 }
 
 void check_unknown_api(const Subject& subject, Reporter& report) {
-  NearestNames nearest_names(schema_names(true));
+  NearestNames nearest_names([] { return schema_names(true); });
   for (const stage::Prim& prim : subject.prims) {
     for (const Token applied : prim.authored_api_schemas()) {
       const Token name = schema::split_api_name(applied).first;
@@ -148,7 +148,7 @@ void check_unknown_api(const Subject& subject, Reporter& report) {
 void check_unknown_attribute(const Subject& subject, Reporter& report) {
   constexpr std::size_t kMaxSearches = 10000;
   std::size_t instance_searches = 0;
-  NearestNames nearest_names(property_names());
+  NearestNames nearest_names(property_names);
   for (const stage::Prim& prim : subject.prims) {
     for (const Token name : prim.authored_property_names()) {
       if (!is_physics_name(name.view()) || prim.definition()->find(name) != nullptr ||

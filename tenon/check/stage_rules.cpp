@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/check/subject.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
@@ -39,14 +40,6 @@ std::map<std::string, std::string> authored_selections(const Subject& subject,
 
 StatementPart selection_part(const std::string& set, const std::string& variant) {
   return layer::entry_part(fields::variantSelection, {set}, variant);
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
 }
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
@@ -171,7 +164,7 @@ void check_unknown_selection(const Subject& subject, Reporter& report) {
         report.at(prim,
                   "variant set \"" + set + "\" has no variant \"" + variant +
                       "\": nothing of the set is composed",
-                  "select one of: " + joined(variants), selection_part(set, variant));
+                  "select one of: " + comma_list(variants), selection_part(set, variant));
       }
     }
   }
@@ -185,7 +178,7 @@ void check_physics_unselected(const Subject& subject, Reporter& report) {
   if (!authored_selections(subject, prim).contains(kPhysicsSet)) {
     report.at(prim,
               "no variant of the set \"Physics\" is selected: the asset opens without physics",
-              "select one of: " + joined(prim.variant_names(kPhysicsSet)));
+              "select one of: " + comma_list(prim.variant_names(kPhysicsSet)));
   }
 }
 

@@ -16,7 +16,6 @@
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/base/text/quoted_text.h"
 #include "tenon/base/text/text_number.h"
-#include "tenon/dynamics/start_from.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::dynamics {
@@ -174,8 +173,7 @@ Result<Posture> posture_from_texts(const Multibody& multibody,
   return multibody.moved(start, std::move(joints));
 }
 
-void start_from(scene::PhysicsScene& scene, const Posture& posture) {
-  const Multibody multibody(scene);
+void start_from(scene::PhysicsScene& scene, const Multibody& multibody, const Posture& posture) {
   for (Index b = 0; b < scene.bodies.size(); ++b) {
     scene.bodies[b].pose = posture.bodies[b];
   }
@@ -191,8 +189,9 @@ void start_from(scene::PhysicsScene& scene, const Posture& posture) {
 
 Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>& texts) {
   if (!texts.empty()) {
-    TENON_TRY(const Posture posture, posture_from_texts(Multibody(scene), texts));
-    start_from(scene, posture);
+    const Multibody multibody(scene);
+    TENON_TRY(const Posture posture, posture_from_texts(multibody, texts));
+    start_from(scene, multibody, posture);
   }
   return {};
 }

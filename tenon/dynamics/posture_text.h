@@ -19,8 +19,11 @@ namespace tenon::dynamics {
 Result<Posture> posture_from_texts(const Multibody& multibody,
                                    const std::vector<std::string>& texts);
 
-/// Lets the scene start there: poses of bodies, and positions of joints that have one of their own.
-/// Drives keep their targets. Errors: those of posture_from_texts.
+/// Lets the scene start at a posture of it: poses of bodies, and positions of joints that have one
+/// of their own. Drives keep their targets. `multibody` is that of the scene.
+void start_from(scene::PhysicsScene& scene, const Multibody& multibody, const Posture& posture);
+
+/// The same with posture_from_texts. Errors: those of it.
 Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>& texts);
 
 }  // namespace tenon::dynamics

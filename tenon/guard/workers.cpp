@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/guard/worker_place.h"
 #include "tenon/guard/worker_process.h"
 
@@ -193,10 +194,7 @@ Error bad_answer(const std::string& file) { return broken(file, "its answer make
 
 Diagnostic refused_file(const std::string& file, const std::string& refused,
                         const std::vector<std::string>& roots) {
-  std::string folders;
-  for (const std::string& root : roots) {
-    folders += (folders.empty() ? "" : ", ") + root;
-  }
+  const std::string folders = comma_list(roots);
   return file_finding(Severity::Error, "guard.outside",
                       "the file asks for \"" + refused +
                           "\", which is not a file in the folders that may be read (" + folders +

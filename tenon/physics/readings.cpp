@@ -10,6 +10,8 @@
 #include <array>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
+
 namespace tenon::physics {
 namespace {
 
@@ -19,16 +21,8 @@ void assign(Readings& readings, std::size_t value) {
   readings.*member = static_cast<Choice>(value);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
-
 Error unknown(std::string what, const std::vector<std::string>& known) {
-  return Error(ErrorCode::Invalid, std::move(what) + "; there are " + joined(known));
+  return Error(ErrorCode::Invalid, std::move(what) + "; there are " + comma_list(known));
 }
 
 /// Sorted by name; an absent third value is null.

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/physics/physics_tokens.h"
 #include "tenon/schema/declaring_apis.h"
 #include "tenon/schema/registry.h"
@@ -124,10 +125,7 @@ bool StrayProperties::report_ignored(const AttributeValues& values, const stage:
     row->second.push_back(name);
   }
   for (const auto& [api, names] : ignored) {
-    std::string list;
-    for (const Token name : names) {
-      list += (list.empty() ? "" : ", ") + name.str();
-    }
+    const std::string list = comma_list(names, &Token::str);
     values.report(
         prim, names.front(), Severity::Warning, "attribute.api-missing",
         list + (names.size() == 1 ? " is" : " are") + " ignored: " + api.str() + " is not applied",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/settings/settings_keys.h"
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/check/rule.h"
 #include "tenon/engines/engines.h"
 #include "tenon/structure/layout.h"
@@ -28,12 +29,6 @@ const std::vector<Key>& keys() {
   return table;
 }
 
-std::string key_list() {
-  std::string text;
-  for (const Key& key : keys()) {
-    text += (text.empty() ? "" : ", ") + std::string(key.name);
-  }
-  return text;
-}
+std::string key_list() { return comma_list(keys(), &Key::name); }
 
 }  // namespace tenon::settings

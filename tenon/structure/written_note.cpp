@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "tenon/base/content_digest.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/bytes/read_record.h"
 #include "tenon/bytes/zip/zip_archive.h"
@@ -143,20 +144,13 @@ std::optional<Dictionary> note_in(std::shared_ptr<const bytes::FileBytes> conten
   return note == nullptr ? std::nullopt : std::optional(*note);
 }
 
-std::string all_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  return list;
-}
-
 Error edited(const std::string& file, const WrittenState& state) {
   return Error(ErrorCode::Invalid,
-               state.noted ? "the asset was edited since it was written: " + all_of(state.edited) +
-                                 (state.edited.size() == 1 ? " differs" : " differ")
-                           : std::string("there is a file already, and it does not say that it is "
-                                         "as this program has written it"))
+               state.noted
+                   ? "the asset was edited since it was written: " + comma_list(state.edited) +
+                         (state.edited.size() == 1 ? " differs" : " differ")
+                   : std::string("there is a file already, and it does not say that it is "
+                                 "as this program has written it"))
       .in_file(file)
       .with_rule("output.edited")
       .with_fix("give --force to overwrite it, or name another place");
@@ -316,7 +310,7 @@ Result<void> check_not_edited(const std::string& file, const Digests& beside) {
     return {};
   }
   return Error(ErrorCode::Invalid,
-               "files that were not written with it are in the way: " + all_of(strange))
+               "files that were not written with it are in the way: " + comma_list(strange))
       .in_file(file)
       .with_rule("output.unknown")
       .with_fix("name another place, or give --force to overwrite them");

@@ -48,7 +48,7 @@ ANGLES = ("rad", "deg")
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """How logs are read; what is left out follows from the names of columns."""
+    """How logs are read; options that are not given follow from the names of columns."""
 
     mapping: Mapping[str, str] = dataclasses.field(default_factory=dict)
     """Columns, or names of joints in columns, to joints of the asset; ".command_position" and so on
@@ -62,7 +62,7 @@ class Reading:
     ignore: Sequence[str] = ()
     """Regular expressions for whole names of columns that are not read."""
     allow_gaps: bool = False
-    """Gaps are interpolated over, and rows without a state are left out."""
+    """Gaps are interpolated over, and rows without a state are skipped."""
     check: bool = True
     """Units and signs are checked against the asset."""
     commands: str | os.PathLike[str] = ""
@@ -110,7 +110,7 @@ class _Names:
     def __init__(self, joints: Sequence[AssetJoint], how: Reading, source: str) -> None:
         self.joints, self.how, self.source = tuple(joints), how, source
         self.paths = {joint.path for joint in joints}
-        #: What may stand for a joint in a column, longest first.
+        #: Names of a joint in columns, longest first.
         self.known: list[tuple[str, AssetJoint]] = []
         self.whole: dict[str, tuple[AssetJoint, str]] = {}
         for joint in joints:
@@ -295,8 +295,7 @@ def _factor(channel: _Channel, raw: RawLog, how: Reading, metres: float) -> floa
     if channel.signal.endswith("effort"):
         return 1.0
     turns = channel.joint.rotates
-    named = [unit for unit in (channel.unit, raw.units.get(channel.column, ""))
-             if unit in UNITS and (unit in ANGLES) == turns]
+    named = [unit for unit in (channel.unit,) if unit in UNITS and (unit in ANGLES) == turns]
     given = [unit for unit in how.units if (unit in ANGLES) == turns]
     if raw.in_stage_units and not named and not given:
         return UNITS["deg"] if turns else metres
@@ -370,13 +369,13 @@ def _whole(log: Log, raw: RawLog, how: Reading, notes: list[Finding]) -> Log:
             row, joint = (int(each[0]) for each in np.nonzero(bad))
             word = "has no value" if np.isnan(values[row, joint]) else "is infinite"
             raise raw.refuse("log.not-finite", f"{word} ({signal} of {log.joints[joint]})",
-                             "--allow-gaps leaves out such rows", row,
+                             "--allow-gaps skips such rows", row,
                              _column_of(raw, log.joints[joint], signal))
     if not np.any(missing | early):
         return log
-    for which, rule, message in ((missing, "log.not-finite", "rows without a state are left out"),
+    for which, rule, message in ((missing, "log.not-finite", "rows without a state are skipped"),
                                  (early & ~missing, "log.no-command",
-                                  "rows before the first command are left out")):
+                                  "rows before the first command are skipped")):
         if np.any(which):
             row = int(np.flatnonzero(which)[0])
             notes.append(Finding(rule, f"{int(np.sum(which))} {message}", raw.source,

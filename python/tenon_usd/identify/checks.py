@@ -5,7 +5,6 @@ say of positions, signs by what commands say of them."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Sequence
 

@@ -69,7 +69,7 @@ class How:
     search: int = 60
     """Multisines that are tried."""
     collisions: bool = True
-    """Postures in which bodies touch are left out."""
+    """Postures in which bodies touch are skipped."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,13 +106,14 @@ class Excitation:
 
     def to_json(self) -> dict[str, Any]:
         """What it is, without its rows."""
+        crest = self.crest
         rows = [{"joint": joint.name, "unit": joint.unit,
                  "lower": float(self.position[:, k].min()),
                  "upper": float(self.position[:, k].max()),
                  "topSpeed": float(np.abs(self.velocity[:, k]).max()),
                  "effort": float(self.effort[k]), "effortLimit": _or_none(joint.effort_limit),
                  "speedLimit": _or_none(joint.velocity_limit), "size": float(self.shrunk[k]),
-                 "crest": float(self.crest[k])} for k, joint in enumerate(self.joints)]
+                 "crest": float(crest[k])} for k, joint in enumerate(self.joints)]
         return {"kind": self.how.kind, "duration": float(self.times[-1]), "rows": len(self.times),
                 "step": self.how.step, "seed": self.how.seed,
                 "condition": _or_none(self.condition), "logDet": _or_none(self.log_det),
@@ -279,16 +280,15 @@ class _Maker:
 
     # ---- kinds
 
-    def curve(self, times: Array, bounds: Bounds, middle: Array) -> tuple[Array, Sines | None]:
-        """Offsets from the middle, shape (T, N), and the sines of the best multisine."""
+    def curve(self, times: Array, bounds: Bounds, middle: Array) -> Array:
+        """Offsets from the middle, shape (T, N)."""
         how = self.how
         if how.kind != "multisine":
-            return in_turn(how.kind, times, how.duration, bounds, self.random), None
-        sines = self._best_sines(times, bounds, middle)
-        return multisine(times, how.duration, sines, bounds), sines
+            return in_turn(how.kind, times, how.duration, bounds, self.random)
+        return multisine(times, how.duration, self._best_sines(times, bounds, middle), bounds)
 
     def _best_sines(self, times: Array, bounds: Bounds, middle: Array) -> Sines:
-        """By a search: drawn ones first, then the best with one joint drawn anew."""
+        """By a search: drawn ones first, then the best with one joint drawn again."""
         how, random = self.how, self.random
         first = max(1, how.search // 3)
         drawn = [draw_sines(random, bounds, how.duration) for _ in range(first)]
@@ -318,8 +318,7 @@ class _Maker:
 
     # ---- there and back
 
-    def whole(self, times: Array, offsets: Array, middle: Array, bounds: Bounds
-              ) -> tuple[Array, Array]:
+    def whole(self, offsets: Array, middle: Array, bounds: Bounds) -> tuple[Array, Array]:
         """The rows with the way from the start to the middle and back: times and positions."""
         way = np.abs(middle - self.start)
         lead = max(0.5, float(np.max(1.9 * way / np.maximum(bounds.speed, 1e-12)))) * self.slow
@@ -334,8 +333,7 @@ class _Maker:
 
     # ---- what shrinks it
 
-    def within(self, times: Array, offsets: Array, bounds: Bounds) -> tuple[Array, Array, Array,
-                                                                            Array]:
+    def within(self, offsets: Array, bounds: Bounds) -> tuple[Array, Array, Array, Array]:
         """Times, positions, sizes of the joints and largest efforts of a motion that keeps efforts
         and touches nothing; it is made smaller until it does."""
         size, blend, why = np.ones(len(self.joints)), 1.0, ""
@@ -343,8 +341,7 @@ class _Maker:
         limit = np.array([self.how.effort * joint.effort_limit for joint in self.joints])
         for _ in range(ROUNDS):
             middle = self.start + blend * (self.middle - self.start)
-            whole, position = self.whole(times, self._inside(offsets * size, middle), middle,
-                                         bounds)
+            whole, position = self.whole(self._inside(offsets * size, middle), middle, bounds)
             effort, at, worst = self._efforts(whole, position, limit)
             if np.any(effort > limit):
                 k = int(np.argmax(effort / limit))
@@ -483,10 +480,10 @@ def excite(scene: PhysicsScene, how: How | None = None,
     times: Array = np.asarray(np.arange(round(how.duration / how.step) + 1) * how.step)
     if progress:
         progress("search")
-    offsets, _ = maker.curve(times, bounds, maker.middle)
+    offsets = maker.curve(times, bounds, maker.middle)
     if progress:
         progress("limits")
-    whole, position, size, effort = maker.within(times, offsets, bounds)
+    whole, position, size, effort = maker.within(offsets, bounds)
     velocity = np.gradient(position, whole, axis=0)
     if how.kind == "steps":
         velocity = np.zeros_like(position)

@@ -15,9 +15,11 @@ import os
 import sys
 from typing import Any
 
+from .._command import ProgressLine, arguments_of, fail
 from ..errors import Error, MissingError
 from .curves import KINDS
 from .excite import Excitation, ExciteError, How, excite
+from .raw_log import lined
 from .trajectory_files import check_name, write
 
 ABOUT = "Makes a motion that excites joints within their limits; writes it as a command table or " \
@@ -71,12 +73,11 @@ def _run(arguments: argparse.Namespace) -> int:
     how = How(arguments.kind, arguments.joints, arguments.duration, arguments.step, arguments.seed,
               arguments.margin, arguments.speed, arguments.effort, arguments.search,
               not arguments.no_collisions)
-    shown = sys.stderr.isatty() and not arguments.quiet
+    shown = ProgressLine(arguments.quiet)
     try:
-        motion = excite(scene, how, _progress if shown else None)
+        motion = excite(scene, how, lambda what: shown.show(f"{what} ..."))
     finally:
-        if shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
+        shown.end()
     for name in arguments.output:
         write(motion, name)
     if arguments.json:
@@ -91,10 +92,6 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _progress(what: str) -> None:
-    print(f"\r\033[K{what} ...", end="", file=sys.stderr, flush=True)
-
-
 HEAD = ("joint", "from", "to", "speed", "of", "effort", "of", "size %", "crest")
 
 
@@ -107,10 +104,7 @@ def _print(motion: Excitation, outputs: list[str]) -> None:
             position.min(), position.max(), abs(motion.velocity[:, k]).max(),
             joint.velocity_limit, motion.effort[k], joint.effort_limit, 100 * motion.shrunk[k],
             crest[k]))))
-    widths = [max(len(row[k]) for row in rows) for k in range(len(HEAD))]
-    for row in rows:
-        print("  ".join(cell.ljust(widths[0]) if k == 0 else cell.rjust(widths[k])
-                        for k, cell in enumerate(row)).rstrip())
+    print("\n".join(lined(rows)))
     told = f"{motion.how.kind}: {motion.times[-1]:.4g} s, {len(motion.times)} rows, seed " \
            f"{motion.how.seed}"
     if math.isfinite(motion.condition):
@@ -129,29 +123,15 @@ def _number(value: float) -> str:
 
 
 def _fail(error: Exception, code: int, in_json: bool) -> int:
-    try:
-        if in_json:
-            rule = error.rule if isinstance(error, Error) else ""
-            print(json.dumps({"tool": "tenon", "schema": "tenon.excite/1", "ok": False,
-                              "error": str(error), "rule": rule}), flush=True)
-        else:
-            sys.stdout.flush()
-    except OSError:  # Python flushes once more at its end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    for line in str(error).split("\n"):
-        print(f"error: {line}", file=sys.stderr)
-    return code
+    return fail(error, code, "tenon.excite/1" if in_json else None,
+                rule=error.rule if isinstance(error, Error) else "")
 
 
 def main(words: list[str] | None = None) -> int:
     """The command; -> its exit code."""
-    try:
-        arguments = _parser().parse_args(words)
-    except SystemExit as end:
-        return int(end.code or 0)
-    if sys.stdout is None:
-        print("error: standard output is closed", file=sys.stderr)
-        return 2
+    arguments = arguments_of(_parser(), words)
+    if isinstance(arguments, int):
+        return arguments
     try:
         code = _run(arguments)
         sys.stdout.flush()

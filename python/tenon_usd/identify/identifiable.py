@@ -12,13 +12,11 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
-import numpy.typing as npt
 
-from .log import Log
+from .log import Array, Log
 from .model import Model
 from .parameters import FAMILIES, Parameter
 
-Array = npt.NDArray[np.float64]
 #: A parameter whose standard error is more than this part of it is not told by the log.
 MOST_ERROR = 0.5
 #: Parts of a direction that belong to a group of parameters that only appear together.

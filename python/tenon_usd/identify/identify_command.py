@@ -15,12 +15,14 @@ import os
 import sys
 from typing import Any
 
+from .._command import ProgressLine, arguments_of, fail
 from .._toml import FileError as TomlError
 from ..errors import Error, InvalidError, MissingError
 from ..functions import open as open_stage
 from ..sweep.cases import ExtraMissing
 from ..sweep.chunks import write_whole
 from .joints import asset_joints
+from .linear import scipy
 from .log import Log, LogError
 from .log_files import read_log
 from .overlay import make_overlay, write_overlay
@@ -30,7 +32,7 @@ from .report import (check_json, check_lines, identified_json, identified_lines,
                      self_test_json, self_test_lines)
 from .run import Check, Identified, RefusedError, identify
 from .selftest import Sensors, self_test
-from .solve import SOLVERS, scipy_optimize
+from .solve import SOLVERS
 
 ABOUT = "Finds numbers of a robot in its logs: friction, damping, armature, gains, delays, masses."
 
@@ -75,20 +77,9 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-class _Shown:
-    """Progress on a line of standard error."""
-
-    def __init__(self, quiet: bool) -> None:
-        self.on = not quiet and sys.stderr.isatty()
-
+class _Shown(ProgressLine):
     def __call__(self, what: str, simulations: int, cost: float) -> None:
-        if self.on:
-            print(f"\r\033[K{what}: {simulations} simulations, {cost:.6g} left", end="",
-                  file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if self.on:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
+        self.show(f"{what}: {simulations} simulations, {cost:.6g} left")
 
 
 def _rows(arguments: argparse.Namespace) -> list[Row]:
@@ -126,7 +117,7 @@ def _run(arguments: argparse.Namespace, shown: _Shown) -> int:
     rows = _rows(arguments)
     options: dict[str, Any] = {"physics": arguments.physics} if arguments.physics else {}
     if not arguments.check:
-        scipy_optimize()  # what is missing is told now, not later
+        scipy("optimize")  # what is missing is told now, not later
     if arguments.self_test:
         return _self_test(arguments, rows, options, shown)
     joints = asset_joints(open_stage(arguments.asset, **options).physics())
@@ -215,29 +206,16 @@ def _print(arguments: argparse.Namespace, value: dict[str, Any], lines: list[str
 
 
 def _fail(error: Exception, code: int, in_json: bool) -> int:
-    lines = list(error.lines) if isinstance(error, RefusedError) else str(error).split("\n")
-    try:
-        if in_json:
-            print(json.dumps({"tool": "tenon", "schema": "tenon.identify/1", "ok": False,
-                              "error": str(error)}), flush=True)
-        else:
-            sys.stdout.flush()
-    except OSError:  # Python flushes once more at its end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    for line in lines:
-        print(line if line.startswith("error: ") else f"error: {line}", file=sys.stderr)
-    return code
+    lines = error.lines if isinstance(error, RefusedError) else str(error).split("\n")
+    return fail(error, code, "tenon.identify/1" if in_json else None,
+                [line.removeprefix("error: ") for line in lines])
 
 
 def main(words: list[str] | None = None) -> int:
     """The command; -> its exit code."""
-    try:
-        arguments = _parser().parse_args(words)
-    except SystemExit as end:
-        return int(end.code or 0)
-    if sys.stdout is None:
-        print("error: standard output is closed", file=sys.stderr)
-        return 2
+    arguments = arguments_of(_parser(), words)
+    if isinstance(arguments, int):
+        return arguments
     try:
         code = _run(arguments, _Shown(arguments.quiet or arguments.json))
         sys.stdout.flush()

@@ -20,20 +20,29 @@ import numpy.typing as npt
 
 from ..dynamics import Dynamics
 from ..errors import Error
+from ..sweep.cases import ExtraMissing
+from .log import Array
 from .model import Held, Model, has
 from .parameters import Parameter
 
-Array = npt.NDArray[np.float64]
 #: Samples of the inverse dynamics.
 MAX_SAMPLES = 400
 #: Delays that are tried, in steps of the model.
 MAX_DELAYS = 60
 
 
+def scipy(part: str) -> Any:
+    """A module of SciPy. Raises ExtraMissing."""
+    try:
+        return importlib.import_module(f"scipy.{part}")
+    except ImportError as error:
+        raise ExtraMissing("SciPy", "identify", "identify") from error
+
+
 def smoothed(times: Array, values: Array, half: float) -> tuple[Array, Array, Array]:
     """Position, velocity and acceleration of one joint at equal times, by parabolas through the
     samples within `half` seconds."""
-    signal: Any = importlib.import_module("scipy.signal")
+    signal = scipy("signal")
     step = float(np.median(np.diff(times)))
     even = np.arange(times[0], times[-1], step)
     own = np.interp(even, times, values)
@@ -52,7 +61,7 @@ def linear_start(model: Model, parameters: list[Parameter]) -> Array:
     log = model.log
     if log.position is None or log.effort is None or len(log) < 20:
         return values
-    optimize: Any = importlib.import_module("scipy.optimize")
+    optimize = scipy("optimize")
     moves = [smoothed(log.times, log.position[:, j], 3 * log.step + 0.01)
              if has(log.position, j) else None for j in range(len(log.joints))]
     _gains(model, parameters, values, moves, optimize)

@@ -327,18 +327,14 @@ def _arrow_columns(table: Any, path: str, names: Mapping[str, Sequence[str]]
         kind = field.type
         if arrow.types.is_timestamp(kind):
             column = column.cast(arrow.timestamp("ns")).cast(arrow.int64())
-            columns[field.name] = _plain(column)
+            columns[field.name] = column.to_numpy()
         elif arrow.types.is_integer(kind) or arrow.types.is_floating(kind) \
                 or arrow.types.is_boolean(kind):
-            columns[field.name] = _plain(column)
+            columns[field.name] = column.to_numpy()
         elif arrow.types.is_list(kind) or arrow.types.is_fixed_size_list(kind) \
                 or arrow.types.is_large_list(kind):
             columns.update(_parts(field.name, column.to_pylist(), path, names))
     return columns, table.num_rows
-
-
-def _plain(column: Any) -> Any:
-    return column.to_numpy()
 
 
 def _parts(name: str, lists: list[Any], path: str, names: Mapping[str, Sequence[str]]
@@ -393,7 +389,7 @@ def _read_lerobot(path: str, how: Reading) -> RawLog:
         features = {name: _feature_names(each) for name, each in info["features"].items()
                     if isinstance(each, dict)}
         pattern, size = str(info.get("data_path", "")), int(info.get("chunks_size", 1000))
-        version, count = str(info.get("codebase_version", "")), int(info["total_episodes"])
+        count = int(info["total_episodes"])
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise _refusal("log.damaged", f"is no description of a data set: {error!r}", about,
                        "take the whole folder of the data set") from None
@@ -405,7 +401,7 @@ def _read_lerobot(path: str, how: Reading) -> RawLog:
         raise _refusal("log.episodes", f"has no episode {episode}", path,
                        f"there are 0 to {count - 1}")
     names = {name: parts for name, parts in features.items() if parts}
-    for file_name in _lerobot_files(path, pattern, episode, max(size, 1), version):
+    for file_name in _lerobot_files(path, pattern, episode, max(size, 1)):
         raw = _try_episode(file_name, how, names, episode)
         if raw is not None:
             return raw
@@ -420,7 +416,7 @@ def _feature_names(feature: Mapping[str, Any]) -> list[str]:
     return [str(each) for each in names] if isinstance(names, list) else []
 
 
-def _lerobot_files(path: str, pattern: str, episode: int, size: int, version: str) -> list[str]:
+def _lerobot_files(path: str, pattern: str, episode: int, size: int) -> list[str]:
     """Where an episode may be: its own file (version 2), or one of those with many (version 3)."""
     if "{episode_index" in pattern:
         numbers = {"episode_chunk": episode // size, "episode_index": episode}

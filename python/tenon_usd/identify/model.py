@@ -23,10 +23,9 @@ from ..dynamics import Dynamics
 from ..errors import Error, InvalidError, NotFoundError, UnsupportedError
 from ..options import PathLike
 from ..world import World
-from .log import Log
+from .log import Array, Log
 from .parameters import FAMILIES, Parameter, Plant, plant_of
 
-Array = npt.NDArray[np.float64]
 #: Steps, and parts of the way to the next ones.
 Places = tuple[npt.NDArray[np.int64], Array]
 #: Environments of one world, and numbers that the states of one run may take.
@@ -247,7 +246,6 @@ class Model:
             good = np.isfinite(own[:, column])
             positions[good, coordinate] = own[good, column]
             velocities[good, coordinate] = speed[good, column]
-        self._leaders = [(coordinate, coordinate) for coordinate in self.columns]
         for _ in range(8):  # followers of followers
             for joint in scene.joints:
                 if joint.path not in names or joint.path in self.log.joints:

@@ -50,11 +50,8 @@ class Mover:
 
     def posed(self, position: Array) -> Dynamics:
         """The scene with the chosen joints at positions [rad or m], shape (N,)."""
-        return self.base.moved({self._name(k): float(value) for k, value in enumerate(position)})
-
-    def _name(self, k: int) -> str:
-        joint = self.joints[k]
-        return f"{joint.path}:{joint.dof}" if joint.several else joint.path
+        return self.base.moved({joint.name: float(value)
+                                for joint, value in zip(self.joints, position)})
 
     # ---- efforts
 
@@ -91,9 +88,8 @@ class Mover:
     def bodies(self) -> list[int]:
         """Bodies that the chosen joints move, by their places in scene.bodies."""
         if self._bodies is None:
-            tied = self.ties(self.start)
             self._bodies = [b for b in range(len(self.scene.bodies))
-                            if np.any(np.abs(self.base.jacobian(b) @ tied) > 1e-9)]
+                            if np.any(np.abs(self.base.jacobian(b) @ self._tied) > 1e-9)]
         return self._bodies
 
     @property
@@ -115,7 +111,7 @@ class Mover:
         """Efforts as a product of it and unknowns, shape (P, N, columns) for P states of motion of
         shape (P, N): of each joint its armature, viscous and Coulomb friction, then of each moved
         body mass, first moment and, where they are few, inertia."""
-        count, chosen = len(self.joints), self.bodies
+        count = len(self.joints)
         own = np.zeros((len(position), count, 3 * count))
         for k in range(count):
             own[:, k, 3 * k:3 * k + 3] = np.stack(

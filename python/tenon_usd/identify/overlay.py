@@ -18,14 +18,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from .. import _tenon
 from ..errors import Error, FileError
 from ..functions import open as open_stage
+from .log import Array
 from .parameters import Parameter
 
-Array = npt.NDArray[np.float64]
 #: Floats of the schemas keep this part of a number.
 READ_BACK = 2e-6
 #: What is not a number of the asset, with the reason.

@@ -19,7 +19,7 @@ import numpy as np
 from .delays import Delay, estimate_delays
 from .joints import AssetJoint
 from .log import Array, Finding, Log
-from .raw_log import GAP
+from .raw_log import GAP, lined
 
 #: Deviation of the time between samples, of the usual time, above which a clock is told of.
 JITTER = 0.2
@@ -117,10 +117,8 @@ class Quality:
                 each.moved, 100 * each.range_share, each.quantisation, each.noise, each.top_speed,
                 each.bandwidth)), str(each.reversals), _number(100 * each.saturated),
                 _number(each.condition), _number(1e3 * each.delay)))
-        widths = [max(len(row[k]) for row in rows) for k in range(len(HEAD))]
-        lines += ["  ".join(cell.ljust(widths[0]) if k == 0 else cell.rjust(widths[k])
-                            for k, cell in enumerate(row)).rstrip() for row in rows]
-        return "\n".join([*lines, *(f"{each.severity}: {each}" for each in self.findings)])
+        return "\n".join([*lines, *lined(rows),
+                          *(f"{each.severity}: {each}" for each in self.findings)])
 
 
 HEAD = ("joint", "moved", "range %", "encoder", "noise", "speed", "Hz", "turns", "at limit %",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -46,8 +46,6 @@ class RawLog:
     time_name: str = "time"
     in_stage_units: bool = False
     """Angles are in degrees and lengths in units of the stage, as `tenon sim` writes."""
-    units: Mapping[str, str] = dataclasses.field(default_factory=dict)
-    """Of columns that tell theirs: "rad", "deg", "m", "mm"."""
 
     def refuse(self, rule: str, message: str, fix: str, sample: int | None = None,
                channel: str = "") -> LogError:
@@ -159,3 +157,10 @@ def table_of(names: list[str], columns: Mapping[str, Any], source: str, wanted_t
             raise LogError(Finding("log.ragged", f"has the shape {values.shape}, while there are "
                                    f"{count} times", source, 0, key, "one value for each time"))
     return RawLog(source, times, rest, numbers.astype(np.int64), origin, head, name)
+
+
+def lined(rows: Sequence[Sequence[str]], left: int = 1) -> list[str]:
+    """Rows as lines; the first `left` columns are flush left, others right."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(widths[k]) if k < left else cell.rjust(widths[k])
+                      for k, cell in enumerate(row)).rstrip() for row in rows]

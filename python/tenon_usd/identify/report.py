@@ -11,15 +11,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..sweep.report import STYLE, _table
 from .identifiable import Identifiability
+from .log import Array
 from .parameters import FAMILIES, Parameter
+from .raw_log import lined
 from .run import Check, Identified, Residuals
 from .selftest import SelfTest
 
-Array = npt.NDArray[np.float64]
 #: Plots of a page, and points of a line.
 MAX_PLOTS, MAX_POINTS = 60, 1500
 WIDTH, HEIGHT, MARGIN = 520, 240, 60
@@ -103,13 +103,6 @@ def self_test_json(done: SelfTest) -> dict[str, Any]:
 # ---- lines
 
 
-def _lined(rows: Sequence[Sequence[str]], left: int = 1) -> list[str]:
-    """Rows as lines; the first `left` columns are flush left, others right."""
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return ["  ".join(cell.ljust(widths[k]) if k < left else cell.rjust(widths[k])
-                      for k, cell in enumerate(row)).rstrip() for row in rows]
-
-
 def _short(value: float) -> str:
     return f"{value:.4g}" if math.isfinite(value) else "-"
 
@@ -121,7 +114,7 @@ def check_lines(check: Check) -> list[str]:
               "not told" if at in told.refused else "") for at, each in enumerate(check.parameters)]
     values = told.singular_values
     spread = values[0] / values[-1] if values[-1] > 0 else math.inf
-    return [*check.quality.text().split("\n"), "", *_lined(rows),
+    return [*check.quality.text().split("\n"), "", *lined(rows),
             f"condition {_short(spread)}", *check.reasons]
 
 
@@ -131,7 +124,7 @@ def identified_lines(found: Identified) -> list[str]:
     rows += [(each.name, _short(each.nominal), _short(solution.values[at]),
               f"+- {_short(float(solution.high[at] - solution.values[at]))}", _unit(each))
              for at, each in enumerate(found.parameters)]
-    lines = _lined(rows)
+    lines = lined(rows)
     lines += [f"{each.name}: the log does not tell it; it stays {_short(each.nominal)}"
               for each in found.held]
     lines += [f"{each.name}: it ended at its bound" for each in found.at_bounds]
@@ -142,7 +135,7 @@ def identified_lines(found: Identified) -> list[str]:
             if math.isfinite(before):
                 rows.append((joint.rpartition("/")[2], each.channel, _short(before),
                              _short(after), ""))
-    lines += _lined(rows, 2)
+    lines += lined(rows, 2)
     for replay in found.replays:
         told = replay.why or f"positions {_short(replay.before)} -> {_short(replay.after)}"
         lines.append(f"{replay.engine}: {told}")
@@ -157,7 +150,7 @@ def self_test_lines(done: SelfTest) -> list[str]:
         rows.append((each.parameter.name, _short(each.truth), _short(each.found),
                      f"{factor * each.error:.2f}{unit}", f"{factor * each.allowed:g}{unit}",
                      "ok" if each.passed else "FAILED"))
-    return [*_lined(rows), *(f"{each.name}: the log does not tell it" for each in done.refused)]
+    return [*lined(rows), *(f"{each.name}: the log does not tell it" for each in done.refused)]
 
 
 # ---- page

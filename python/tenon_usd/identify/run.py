@@ -16,13 +16,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import Error, InvalidError
 from ..functions import engines as all_engines
 from .identifiable import Identifiability, reasons
 from .joints import asset_joints
-from .log import Log
+from .log import Array, Log
 from .model import CHANNELS, Model, joined_logs
 from .overlay import temporary_overlay
 from .parameters import FAMILIES, Parameter, Row, select
@@ -30,7 +29,6 @@ from .quality import Quality, assess
 from .selftest import DEFAULT_FAMILIES
 from .solve import Shown, Solution, look, solve
 
-Array = npt.NDArray[np.float64]
 #: Of what a joint does beside its command, or of its effort, the part that may stay unexplained
 #: before the log counts as one of another robot.
 UNEXPLAINED = 0.35

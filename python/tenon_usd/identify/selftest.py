@@ -15,17 +15,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import InvalidError
 from ..world import World
 from .identifiable import Identifiability
-from .log import Log
+from .log import Array, Log
 from .model import INTEGRATORS, Model
 from .parameters import FAMILIES, Parameter, Row, select
 from .solve import Shown, Solution, look, solve
 
-Array = npt.NDArray[np.float64]
 #: What is identified where nothing is named.
 DEFAULT_FAMILIES = ("friction", "damping", "armature", "stiffness", "driveDamping", "delay")
 #: How far off each family may be: a part of the truth; of delays a part of the time step.

@@ -18,17 +18,16 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..sweep.cases import ExtraMissing
 from ..sweep.chunks import write_whole
 from .identifiable import (Identifiability, judge, prior_rows, residuals, scales_of, sensitivity,
                            weights_of)
-from .linear import linear_start
+from .linear import linear_start, scipy
+from .log import Array
 from .model import Model
 from .parameters import Parameter
 
-Array = npt.NDArray[np.float64]
 SOLVERS = ("gauss-newton", "cma")
 ROUNDS = 3
 #: Differences of more deviations count less: where commands jump, moments of the clock decide.
@@ -60,14 +59,6 @@ class Solution:
     @property
     def high(self) -> Array:
         return self.values + INTERVAL * self.errors
-
-
-def scipy_optimize() -> Any:
-    """scipy.optimize. Raises ExtraMissing."""
-    try:
-        return importlib.import_module("scipy.optimize")
-    except ImportError as error:
-        raise ExtraMissing("SciPy", "identify", "identify") from error
 
 
 def _cma() -> Any:
@@ -217,10 +208,9 @@ def _persistence(values: Array) -> float:
     return float(1 + 2 * correlation[1:end].sum())
 
 
-def look(model: Model, parameters: list[Parameter],
-         values: Array | None = None) -> Identifiability:
-    """What the log tells about parameters, at their start, or at values that a linear fit gives."""
-    at = linear_start(model, parameters) if values is None else values
+def look(model: Model, parameters: list[Parameter]) -> Identifiability:
+    """What the log tells about parameters, at their start."""
+    at = linear_start(model, parameters)
     # Away from the bounds: friction 0 has another slope than friction.
     at = np.array([max(value, 0.1 * each.scale) if each.low >= 0 and value <= 0
                    and each.high >= 0.1 * each.scale and each.family != "delay" else value
@@ -233,7 +223,7 @@ def solve(model: Model, parameters: list[Parameter], *, solver: str = "gauss-new
           seed: int = 0, state: str = "", shown: Shown | None = None) -> Solution:
     """Fits. Ctrl-C ends it with the best that was found. Raises ExtraMissing, and errors of the
     model."""
-    optimize = scipy_optimize()
+    optimize = scipy("optimize")
     fit = _Fit(model, parameters, shown or (lambda *_: None))
     fit.state = State(state, digest_of(model, parameters, solver, seed))
     known = fit.state.read(len(parameters))

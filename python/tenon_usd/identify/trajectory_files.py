@@ -11,7 +11,6 @@ import os
 
 import numpy as np
 
-from ..sweep.chunks import write_whole
 from .excite import Excitation, ExciteError
 from .joints import AssetJoint
 from .log import Finding
@@ -33,6 +32,8 @@ def check_name(path: str | os.PathLike[str]) -> None:
 
 def write(motion: Excitation, path: str | os.PathLike[str]) -> None:
     """Writes a motion by the ending of `path`, whole or not at all. Raises ExciteError, OSError."""
+    from ..sweep.chunks import write_whole  # brings in all of the sweeps
+
     check_name(path)
     name = os.path.abspath(os.fspath(path))
     ending = os.path.splitext(name)[1]

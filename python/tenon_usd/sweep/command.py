@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from .._command import ProgressLine, arguments_of, fail
 from .cases import Cases, ExtraMissing
 from .chunks import FORMATS, FolderError, Results, Row
 from .plan import Plan, PlanError, load_plan
@@ -78,22 +79,14 @@ def _fault(message: str) -> Any:
     return Fault("", 0, message)
 
 
-class _Shown:
-    """Progress on a line of standard error."""
-
+class _Shown(ProgressLine):
     def __init__(self, quiet: bool) -> None:
-        self.on = not quiet and sys.stderr.isatty()
+        super().__init__(quiet)
         self.start = time.monotonic()
 
     def __call__(self, done: int, total: int, failed: int) -> None:
-        if self.on:
-            left = (time.monotonic() - self.start) * (total - done) / max(done, 1)
-            print(f"\r\033[K{done} of {total} cases, {failed} failed, {left:.0f} s left", end="",
-                  file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if self.on:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
+        left = (time.monotonic() - self.start) * (total - done) / max(done, 1)
+        self.show(f"{done} of {total} cases, {failed} failed, {left:.0f} s left")
 
 
 def _list_cases(plan: Plan) -> None:
@@ -175,29 +168,15 @@ def _run(arguments: argparse.Namespace, make_runner: MakeRunner | None,
 
 
 def _fail(error: Exception, code: int, in_json: bool) -> int:
-    try:
-        if in_json:
-            print(json.dumps({"tool": "tenon", "schema": "tenon.sweep/1", "ok": False,
-                              "error": str(error)}), flush=True)
-        else:
-            sys.stdout.flush()
-    except OSError:  # Python flushes once more at its end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    for line in str(error).split("\n"):
-        print(f"error: {line}", file=sys.stderr)
-    return code
+    return fail(error, code, "tenon.sweep/1" if in_json else None)
 
 
 def main(words: list[str] | None = None, make_runner: MakeRunner | None = None,
          digest_of: Callable[[Plan], str] | None = None) -> int:
     """The command; -> its exit code. Without a runner of the caller's, tenon's own simulates."""
-    try:
-        arguments = _parser().parse_args(words)
-    except SystemExit as end:
-        return int(end.code or 0)
-    if sys.stdout is None:
-        print("error: standard output is closed", file=sys.stderr)
-        return 2
+    arguments = arguments_of(_parser(), words)
+    if isinstance(arguments, int):
+        return arguments
     try:
         code = _run(arguments, make_runner, digest_of)
         sys.stdout.flush()

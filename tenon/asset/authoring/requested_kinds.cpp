@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/property_value.h"
 #include "tenon/schema/registry.h"
@@ -16,13 +17,7 @@
 namespace tenon {
 namespace {
 
-std::string listed_kinds() {
-  std::string text;
-  for (const std::string& name : kind_names()) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
+std::string listed_kinds() { return comma_list(kind_names()); }
 
 /// Other names of kinds, as other programs call them.
 constexpr std::pair<std::string_view, std::string_view> kOtherNames[] = {

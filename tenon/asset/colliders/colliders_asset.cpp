@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -29,18 +30,6 @@ using scene::Approximation;
 using scene::Collider;
 using scene::PhysicsScene;
 using Choices = std::map<Path, Approximation>;
-
-double size_of(const scene::TriangleMesh& mesh) {
-  Vec3d low{{kInfinity, kInfinity, kInfinity}};
-  Vec3d high = -low;
-  for (const Vec3d& point : mesh.points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  }
-  return mesh.points.empty() ? 0 : length(high - low);
-}
 
 /// The rows of one engine.
 class ColliderTable {
@@ -132,7 +121,7 @@ class ColliderTable {
       }
       row.is_mesh = true;
       const MeshOfCollider mesh = mesh_of_collider(*found->second, scene);
-      row.size = size_of(mesh.mesh);
+      row.size = approximate::diagonal_of(mesh.mesh);
       meshes_.emplace(row.path, mesh);
     }
   }
@@ -312,16 +301,18 @@ Result<CollidersOfAsset> colliders_of_asset(const std::string& path,
   CollidersOfAsset found;
   found.budget = options.budget;
   for (const std::string& engine : engines) {
-    OpenOptions open = options.open;
     const std::string variant = chosen ? options.open.physics_variant : own_variant(engine, stage);
+    Diagnostics told_already;
+    std::optional<stage::Stage> own;  // where the engine has a variant of its own
     if (!chosen && !variant.empty()) {
+      OpenOptions open = options.open;
       open.physics_variant = variant;
       open.physics_below = true;
+      TENON_TRY(own, tenon::open(path, open, told_already));
     }
-    Diagnostics told_already;
     Diagnostics& findings = found.engines.empty() ? diagnostics : told_already;
-    TENON_TRY(const stage::Stage own, tenon::open(path, open, told_already));
-    TENON_TRY(CollidersOfEngine one, ColliderTable(own, options).run(engine, findings));
+    TENON_TRY(CollidersOfEngine one,
+              ColliderTable(own ? *own : stage, options).run(engine, findings));
     one.variant = variant;
     found.engines.push_back(std::move(one));
   }

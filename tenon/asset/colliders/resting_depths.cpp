@@ -5,6 +5,7 @@
 #if TENON_WITH_MUJOCO
 #include <utility>
 
+#include "tenon/asset/pairs/body_pairs.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/overlap/penetrations.h"
 #endif
@@ -29,7 +30,7 @@ std::vector<RestingDepth> resting_depths(const scene::PhysicsScene& scene) {
   }
   std::vector<RestingDepth> depths(scene.colliders.size());
   for (const engines::mujoco::Penetration& one : *found) {
-    if (!scene.may_collide(one.a, one.b)) {
+    if (one.depth < kTouchingDepth || !scene.may_collide(one.a, one.b)) {
       continue;
     }
     for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {

@@ -11,7 +11,7 @@ namespace tenon {
 
 /// The deepest overlap of a collider.
 struct RestingDepth {
-  double depth = 0;  ///< [m]; 0: it overlaps nothing
+  double depth = 0;  ///< [m], at least kTouchingDepth (body_pairs.h); 0: it overlaps nothing
   scene::Index with = 0;
 };
 /// Overlaps with colliders of other bodies, static ones among them, at the start, of pairs that may

@@ -14,6 +14,7 @@
 #include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset/simulating/engine_choice.h"
 #include "tenon/base/limits/run_limits.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/files.h"
 #include "tenon/make_simulation.h"
@@ -49,10 +50,7 @@ const std::vector<UnitRow>& unit_rows() {
 }
 
 Error bad_bound(const std::string& text) {
-  std::string names;
-  for (const motions::MetricInfo& info : motions::metrics()) {
-    names += (names.empty() ? "" : ", ") + std::string(info.name);
-  }
+  const std::string names = comma_list(motions::metrics(), &motions::MetricInfo::name);
   return Error(ErrorCode::Invalid, "\"" + text + "\" is not a bound for a gap")
       .with_rule("usage.value")
       .with_fix("write a number with its unit (5mm, 1deg), or NAME=NUMBER of " + names);

@@ -13,6 +13,7 @@
 
 #include "tenon/asset/viewing/record_asset.h"
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/layer/dictionary.h"
 #include "tenon/layer/fields.h"
@@ -65,10 +66,7 @@ void set_if_empty(std::string& fact, std::string value) {
 }
 
 Error unknown_name(const std::string& name) {
-  std::string names;
-  for (const FactRow& row : kFacts) {
-    names += (names.empty() ? "" : ", ") + std::string(row.name);
-  }
+  const std::string names = comma_list(kFacts, &FactRow::name);
   return Error(ErrorCode::Invalid, "--metadata: SimReady has no \"" + name + "\" to be said")
       .with_rule("usage.value")
       .with_fix("give one of " + names);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/angle.h"
 #include "tenon/settings/toml_file.h"
@@ -158,13 +159,7 @@ Result<Path> tip_of(const settings::TomlValue& value) {
   return path;
 }
 
-std::string listed_keys() {
-  std::string names;
-  for (const SpecKey& key : kSpecKeys) {
-    names += (names.empty() ? "" : ", ") + std::string(key.name);
-  }
-  return names;
-}
+std::string listed_keys() { return comma_list(kSpecKeys, &SpecKey::name); }
 
 Result<void> add_spec(const settings::TomlValue& value, std::vector<MotorSpec>& specs) {
   if (value.path.size() != 2) {

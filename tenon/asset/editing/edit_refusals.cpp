@@ -6,7 +6,6 @@
 
 #include "tenon/asset/edit_file_choice.h"
 #include "tenon/bytes/asset_resolver.h"
-#include "tenon/layer/fields.h"
 #include "tenon/property_value.h"
 
 namespace tenon {
@@ -62,24 +61,27 @@ Error used_by_arc(Path from, Path prim) {
 Error hidden(const stage::Stage& stage, const std::string& shown, const AssetEdit& edit,
              const std::string& file) {
   const Token property = edit.object.is_property() ? edit.object.name() : Token();
-  std::string stronger = "another layer";
-  std::uint32_t line = 0;
-  for (const auto& source : stage::opinion_sources(stage, edit.object.prim(), property)) {
+  const auto sources = stage::opinion_sources(stage, edit.object.prim(), property);
+  const stage::OpinionSource* stronger = nullptr;
+  for (const auto& source : sources) {
     if (source.layer->identifier() == file) {
       break;
     }
-    const bool speaks = edit.is_about_api() ? source.spec->has(layer::fields::apiSchemas)
-                                            : source.spec->fields().size() > 0;
-    if (speaks) {
-      stronger = source.layer->identifier();
-      line = source.spec->line;
+    if (speaks(source, edit)) {
+      stronger = &source;
       break;
+    }
+    // Where no layer has the same field, the strongest with any is the best guess.
+    if (stronger == nullptr && source.spec->fields().size() > 0) {
+      stronger = &source;
     }
   }
   const std::string where = shown.empty() ? "" : " under Physics=" + shown;
   Error error(ErrorCode::Invalid, "what " + file_part(file) + " says about <" + edit.object.str() +
                                       "> does not count" + where + ": a stronger opinion hides it");
-  return std::move(std::move(error).in_file(stronger).at(line, line == 0 ? 0 : 1))
+  const std::uint32_t line = stronger == nullptr ? 0 : stronger->spec->line;
+  const std::string place = stronger == nullptr ? "another layer" : stronger->layer->identifier();
+  return std::move(std::move(error).in_file(place).at(line, line == 0 ? 0 : 1))
       .with_prim(edit.object.prim().str())
       .with_rule("edit.hidden")
       .with_fix("edit that file, with --in or --engine, or clear the value there");

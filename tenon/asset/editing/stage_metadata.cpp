@@ -15,6 +15,7 @@
 #include "tenon/asset/editing/whole_prim_edits.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/path.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/edit/layer_editor.h"
@@ -50,13 +51,7 @@ const Row* find_row(std::string_view name) {
   return found == std::end(kRows) ? nullptr : found;
 }
 
-std::string listed_names() {
-  std::string text;
-  for (const Row& row : kRows) {
-    text += (text.empty() ? "" : ", ") + std::string(row.name);
-  }
-  return text;
-}
+std::string listed_names() { return comma_list(kRows, &Row::name); }
 
 Error bad_value(const std::string& text, const std::string& fix) {
   return Error(ErrorCode::Invalid, "--layer " + text + " is not a value of this kind")

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tenon/asset/layers/relative_path.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/edit/api_schemas.h"
 #include "tenon/edit/layer_editor.h"
@@ -35,14 +36,6 @@ std::string meant(const std::string& name, const std::vector<std::string>& names
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string nearest(nearest_name(name, views));
   return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
 }
 
 /// "SET=VARIANT", "SET=" and "SET".
@@ -69,7 +62,8 @@ Result<void> check_selection(const stage::Prim& prim, const AssetEdit& edit) {
     return Error(ErrorCode::NotFound, "<" + prim.path().str() + "> has no " + what + " " + name)
         .with_prim(prim.path().str())
         .with_rule("edit.no-variant")
-        .with_fix(meant(name, names, names.empty() ? "add it first" : "one of: " + listed(names)));
+        .with_fix(
+            meant(name, names, names.empty() ? "add it first" : "one of: " + comma_list(names)));
   };
   if (!wanted.clears) {
     TENON_CHECK(missing("variant set", wanted.set, prim.variant_set_names()));

@@ -74,8 +74,8 @@ Result<DescriptionFormat> description_format(const std::string& output, const st
       return Error(ErrorCode::Invalid, "files of the format " + name + " end in " +
                                            std::string(row.ending) + ", and the output does not")
           .with_rule("convert.format")
-          .with_fix("name the output " + std::filesystem::path(output).stem().string() +
-                    std::string(row.ending));
+          .with_fix("name the output " +
+                    std::filesystem::path(output).replace_extension(row.ending).string());
     }
   }
   return Error(ErrorCode::Unsupported,

@@ -18,7 +18,6 @@
 #include "tenon/asset/physics_options.h"
 #include "tenon/base/text/source_number.h"
 #include "tenon/describe/describe_robot.h"
-#include "tenon/layer/fields.h"
 #include "tenon/physics/read_physics.h"
 #include "tenon/scene/joint_forest.h"
 #include "tenon/urdf/xml_writer.h"
@@ -61,19 +60,12 @@ class SrdfExport {
   void name_bodies() {
     std::map<std::string, std::size_t> counts;
     for (const scene::Body& body : scene_.bodies) {
-      ++counts[shown(body.path)];
+      ++counts[shown_name(stage_, body.path)];
     }
     for (const scene::Body& body : scene_.bodies) {
-      const std::string name = shown(body.path);
+      const std::string name = shown_name(stage_, body.path);
       names_.push_back(counts[name] == 1 ? std::optional(name) : std::nullopt);
     }
-  }
-
-  std::string shown(Path path) const {
-    const stage::Prim prim = stage_.prim(path);
-    const layer::Value value = prim ? prim.metadata(layer::fields::displayName) : layer::Value();
-    const auto* text = value.get<std::string>();
-    return text != nullptr && !text->empty() ? *text : path.name().str();
   }
 
   void write_group() {

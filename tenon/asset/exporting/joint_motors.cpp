@@ -17,7 +17,6 @@
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon {
-namespace {
 
 std::string shown_name(const stage::Stage& stage, Path path) {
   if (const stage::Prim prim = stage.prim(path)) {
@@ -28,6 +27,8 @@ std::string shown_name(const stage::Stage& stage, Path path) {
   }
   return path.name().str();
 }
+
+namespace {
 
 class MotorReader {
  public:

@@ -45,6 +45,9 @@ std::vector<JointMotor> joint_motors(const stage::Stage& stage, const scene::Phy
                                      const std::string& rule, const std::string& format,
                                      Diagnostics& diagnostics);
 
+/// The display name of a prim, by which descriptions know it; else its own.
+std::string shown_name(const stage::Stage& stage, Path path);
+
 /// Joints with equal numbers, to be given by one row each.
 struct MotorGroup {
   std::string name;                 ///< once in the list: what the joints' names begin with

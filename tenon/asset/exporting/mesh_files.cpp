@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/asset/exporting/obj_files.h"
 #include "tenon/base/text/number_from_text.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/vector.h"
@@ -130,16 +131,12 @@ std::optional<std::string> hull_text(const MeshElement& mesh) {
   if (hull.triangles.empty()) {
     return std::nullopt;
   }
-  std::string text;
-  for (const Vec3d& p : hull.points) {
-    text += "v " + shortest(static_cast<float>(p[0])) + " " + shortest(static_cast<float>(p[1])) +
-            " " + shortest(static_cast<float>(p[2])) + "\n";
+  std::vector<Vec3f> corners;
+  corners.reserve(hull.points.size());
+  for (const Vec3d& point : hull.points) {
+    corners.push_back(to_float(point));
   }
-  for (const Vec3i& t : hull.triangles) {
-    text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
-            std::to_string(t[2] + 1) + "\n";
-  }
-  return text;
+  return obj_text(corners, hull.triangles);
 }
 
 /// Plain letters of a name, so that it may be a file's.

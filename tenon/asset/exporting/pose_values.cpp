@@ -23,7 +23,7 @@ std::vector<PoseValues> pose_values(const stage::Stage& stage,
     for (const physics::NamedPoseJoint& one : named.joints) {
       const auto at = place_of.find(one.joint);
       if (at != place_of.end()) {
-        const double unit = motors[at->second].angular ? kPi / 180 : meters;
+        const double unit = motors[at->second].angular ? kRadians : meters;
         pose.second.emplace_back(at->second, one.value * unit);
       }
     }

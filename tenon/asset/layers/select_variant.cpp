@@ -13,6 +13,7 @@
 
 #include "tenon/asset/layers/asset_layers.h"
 #include "tenon/base/assignment.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/files.h"
 #include "tenon/edit/layer_editor.h"
@@ -20,14 +21,6 @@
 
 namespace tenon {
 namespace {
-
-std::string names_listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
 
 /// Checks that the prim, the set and the variant exist, and says what does exist otherwise.
 Result<VariantSelection> find_selection(const stage::Stage& stage, const std::string& prim_path,
@@ -42,7 +35,7 @@ Result<VariantSelection> find_selection(const stage::Stage& stage, const std::st
   const auto [set, variant] = assignment;
   const auto sets = prim.variant_set_names();
   if (std::find(sets.begin(), sets.end(), set) == sets.end()) {
-    const std::string known = names_listed(sets);
+    const std::string known = comma_list(sets);
     return Error(ErrorCode::NotFound,
                  "<" + prim.path().str() + "> has no variant set \"" + set + "\"")
         .with_fix(known.empty() ? "tenon variant lists all sets" : "sets there: " + known);
@@ -51,7 +44,7 @@ Result<VariantSelection> find_selection(const stage::Stage& stage, const std::st
   if (std::find(names.begin(), names.end(), variant) == names.end()) {
     return Error(ErrorCode::NotFound,
                  "variant set \"" + set + "\" has no variant \"" + variant + "\"")
-        .with_fix("choose one of: " + names_listed(names));
+        .with_fix("choose one of: " + comma_list(names));
   }
   return VariantSelection{prim.path(), set, variant};
 }

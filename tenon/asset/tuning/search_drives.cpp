@@ -18,7 +18,7 @@
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/dynamics/drawn_postures.h"
-#include "tenon/dynamics/start_from.h"
+#include "tenon/dynamics/posture_text.h"
 #include "tenon/make_simulation.h"
 #include "tenon/math/inertia.h"
 
@@ -81,7 +81,7 @@ class Scenes {
         auto scene = std::make_unique<scene::PhysicsScene>(
             request_.poses > 0 ? tuning::without_self_collision(own) : own);
         if (pose > 0) {
-          dynamics::start_from(*scene, postures[pose - 1]);
+          dynamics::start_from(*scene, dynamics::Multibody(*scene), postures[pose - 1]);
         }
         TENON_CHECK(load(*scene, payload));
         SearchScene& made = scenes.emplace_back();
@@ -263,7 +263,7 @@ Result<TunedSearch> search_drives(const TuneOptions& options, const stage::Stage
   if (drives.empty()) {
     return Error(ErrorCode::NotFound, "no joint that was asked for has a drive with a stiffness")
         .with_rule("tune.nothing-to-search")
-        .with_fix("give it one first, by --frequency and --damping-ratio with --save");
+        .with_fix("give it one first: tenon set ASSET --drive JOINT=stiffness:100,damping:10");
   }
   TENON_TRY(tuning::GainSearchResult result,
             tuning::search_gains(scenes, drives, search_options(options, tuned, search.drives)));

@@ -75,6 +75,10 @@ std::string_view NearestNames::find(Token name) {
   if (found_.size() >= kMax) {
     return {};
   }
+  if (make_names_) {
+    names_ = make_names_();
+    make_names_ = nullptr;
+  }
   return found_.emplace(name, nearest_name(name.view(), names_)).first->second;
 }
 

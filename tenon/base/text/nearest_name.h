@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -23,10 +24,13 @@ std::string_view nearest_name(std::string_view name, const std::vector<std::stri
 /// of them, since the search is long.
 class NearestNames {
  public:
-  explicit NearestNames(std::vector<std::string_view> names) : names_(std::move(names)) {}
+  /// `names` is called when a name is looked for first.
+  explicit NearestNames(std::function<std::vector<std::string_view>()> names)
+      : make_names_(std::move(names)) {}
   std::string_view find(Token name);
 
  private:
+  std::function<std::vector<std::string_view>()> make_names_;  ///< empty: they are made
   std::vector<std::string_view> names_;
   std::unordered_map<Token, std::string_view> found_;
 };

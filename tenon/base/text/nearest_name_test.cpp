@@ -26,7 +26,7 @@ TEST(NearestNameOf, IsTheOneThatWasProbablyMeant) {
 }
 
 TEST(NearestNames, LookForNoMoreThanAThousand) {
-  NearestNames nearest({"radius"});
+  NearestNames nearest([] { return std::vector<std::string_view>{"radius"}; });
   EXPECT_EQ(nearest.find(Token("radiu")), "radius");
   for (int i = 0; i < 1000; ++i) {
     nearest.find(Token("radiu" + std::to_string(i)));

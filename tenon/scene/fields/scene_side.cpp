@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "tenon/base/text/comma_list.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/quaternion.h"
 
@@ -146,11 +147,7 @@ std::string Side::list_word(const OwnerFacts& owner, const FieldInfo& info, Data
   if (info.unordered) {
     std::sort(each.begin(), each.end());
   }
-  std::string words;
-  for (const std::string& one : each) {
-    words += (words.empty() ? "" : ", ") + one;
-  }
-  return words;
+  return comma_list(each);
 }
 
 }  // namespace tenon::scene

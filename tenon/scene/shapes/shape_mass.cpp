@@ -15,6 +15,28 @@
 #include "tenon/scene/shapes/convex_hull.h"
 
 namespace tenon::scene {
+
+SolidIntegrals sum_of(const std::vector<SolidIntegrals>& parts) {
+  SolidIntegrals result;
+  for (const SolidIntegrals& part : parts) {
+    result.volume += part.volume;
+    result.center += part.center * part.volume;
+  }
+  if (!(result.volume > 0)) {
+    return {};
+  }
+  result.center *= 1 / result.volume;
+  for (const SolidIntegrals& part : parts) {
+    const Mat3d moved = shift_inertia(part.inertia, part.volume, part.center - result.center);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        result.inertia[i][j] += moved[i][j];
+      }
+    }
+  }
+  return result;
+}
+
 namespace {
 
 /// M-1
@@ -75,28 +97,6 @@ SolidIntegrals capsule_integrals(double r, double h, Axis axis) {
   const double across =
       cylinder * (h * h / 12 + r * r / 4) + caps * (r * r * 2 / 5 + h * h / 4 + h * r * 3 / 8);
   result.inertia = about_axis(axis, along, across);
-  return result;
-}
-
-/// The sum of solids, each counted whole where they overlap.
-SolidIntegrals sum_of(const std::vector<SolidIntegrals>& parts) {
-  SolidIntegrals result;
-  for (const SolidIntegrals& part : parts) {
-    result.volume += part.volume;
-    result.center += part.center * part.volume;
-  }
-  if (!(result.volume > 0)) {
-    return {};
-  }
-  result.center *= 1 / result.volume;
-  for (const SolidIntegrals& part : parts) {
-    const Mat3d moved = shift_inertia(part.inertia, part.volume, part.center - result.center);
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        result.inertia[i][j] += moved[i][j];
-      }
-    }
-  }
   return result;
 }
 

@@ -14,6 +14,9 @@ namespace tenon::scene {
 SolidIntegrals shape_integrals(const Shape& shape, const std::vector<TriangleMesh>& meshes,
                                bool* used_hull = nullptr);
 
+/// The sum of solids in one frame, each counted whole where they overlap; empty without a volume.
+SolidIntegrals sum_of(const std::vector<SolidIntegrals>& parts);
+
 /// A solid of revolution about +Z between two heights (M-7).
 struct Profile {
   double bottom = 0;

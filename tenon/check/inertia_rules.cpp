@@ -13,6 +13,7 @@
 #include "tenon/check/extents.h"
 #include "tenon/check/subject.h"
 #include "tenon/math/inertia.h"
+#include "tenon/physics/bodies/mass_properties.h"
 #include "tenon/scene/shapes/shape_mass.h"
 
 namespace tenon::check {
@@ -22,37 +23,19 @@ using scene::Body;
 using scene::Index;
 
 constexpr double kOutside = 1;       ///< in half diagonals of the box that the solid amounts to
-constexpr double kCentersFar = 10;   ///< from there on mass.center-far tells it
 constexpr double kLongSolid = 3;     ///< middle to smallest moment of a solid that is long
 constexpr double kLongInertia = 2;   ///< the same of moments that are authored
 constexpr double kAskew = M_PI / 3;  ///< [rad]
 
 /// All enabled colliders of a body, as one solid of density 1 in the body's frame.
 scene::SolidIntegrals solid_of(const Subject& subject, Index body) {
-  scene::SolidIntegrals whole;
   std::vector<scene::SolidIntegrals> parts;
   for (const Index c : subject.colliders_of_body[body]) {
     const scene::Collider& collider = subject.scene.colliders[c];
-    scene::SolidIntegrals part = scene::shape_integrals(collider.shape, subject.scene.meshes);
-    part.center = transform_point(collider.pose, part.center);
-    part.inertia = rotate_inertia(collider.pose.orientation, part.inertia);
-    whole.volume += part.volume;
-    whole.center = whole.center + part.center * part.volume;
-    parts.push_back(part);
+    parts.push_back(physics::placed(scene::shape_integrals(collider.shape, subject.scene.meshes),
+                                    collider.pose));
   }
-  if (!(whole.volume > 0)) {
-    return {};
-  }
-  whole.center = whole.center * (1 / whole.volume);
-  for (const scene::SolidIntegrals& part : parts) {
-    const Mat3d moved = shift_inertia(part.inertia, part.volume, part.center - whole.center);
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        whole.inertia[i][j] += moved[i][j];
-      }
-    }
-  }
-  return whole;
+  return scene::sum_of(parts);
 }
 
 /// Half of the diagonal of the box that has this mass and these moments, evenly filled [m].
@@ -95,8 +78,11 @@ template <class Visit>
 void each_author(const Subject& subject, std::initializer_list<const char*> names, Visit visit) {
   for (Index i = 0; i < subject.scene.bodies.size(); ++i) {
     const Body& body = subject.scene.bodies[i];
+    if (body.kinematic || subject.colliders_of_body[i].empty()) {
+      continue;
+    }
     const stage::Prim prim = subject.stage.prim(body.path);
-    if (!body.kinematic && !subject.colliders_of_body[i].empty() && authors_any(prim, names)) {
+    if (authors_any(prim, names)) {
       visit(i, body, prim);
     }
   }
@@ -109,7 +95,7 @@ void check_outside_center(const Subject& subject, Reporter& report) {
   each_author(subject, {"physics:centerOfMass"}, [&](Index i, const Body& body, const auto& prim) {
     const Extent extent = extent_of(subject, i);
     const double from_middle = length(body.center_of_mass - extent.middle());
-    if (holds(extent, body.center_of_mass) || from_middle > kCentersFar * extent.half_diagonal()) {
+    if (holds(extent, body.center_of_mass) || from_middle > kFarCenter * extent.half_diagonal()) {
       return;
     }
     const scene::SolidIntegrals solid = solid_of(subject, i);

@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: tenon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the commands of this package share: how they begin, and how they end with an error."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+
+def arguments_of(parser: argparse.ArgumentParser,
+                 words: list[str] | None) -> argparse.Namespace | int:
+    """The arguments, or the exit code where there is nothing to run: help was printed, a word is
+    wrong, or standard output is closed."""
+    try:
+        arguments = parser.parse_args(words)
+    except SystemExit as end:
+        return int(end.code or 0)
+    if sys.stdout is None:
+        print("error: standard output is closed", file=sys.stderr)
+        return 2
+    return arguments
+
+
+class ProgressLine:
+    """One line of standard error that is written over; nothing where no terminal shows it."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.on = not quiet and sys.stderr.isatty()
+
+    def show(self, text: str) -> None:
+        if self.on:
+            print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        self.show("")
+
+
+def fail(error: Exception, code: int, schema: str | None, lines: Sequence[str] | None = None,
+         **fields: Any) -> int:
+    """Prints an error, with a schema also as JSON with `fields`; -> the code. `lines` are those of
+    its text."""
+    try:
+        if schema is not None:
+            print(json.dumps({"tool": "tenon", "schema": schema, "ok": False,
+                              "error": str(error), **fields}), flush=True)
+        else:
+            sys.stdout.flush()
+    except OSError:  # Python flushes once more at its end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    for line in str(error).split("\n") if lines is None else lines:
+        print(f"error: {line}", file=sys.stderr)
+    return code
