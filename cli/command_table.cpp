@@ -28,7 +28,7 @@ std::string OptionInfo::signature() const {
     const std::string name = list ? names.front() + "..." : names.front();
     return required ? name : "[" + name + "]";
   }
-  const std::string text = comma_list(names);
+  std::string text = comma_list(names);
   if (value.empty()) {
     return text;
   }
