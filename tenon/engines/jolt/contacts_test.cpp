@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tenon/engines/jolt/test_run.h"
@@ -145,6 +147,22 @@ TEST(JoltContacts, ABodyThatSleepsStaysUntilItIsMet) {
   EXPECT_EQ(simulation->body_state(sleeper).pose.position, Vec3d{});
   run_for(*simulation, 0.4);
   EXPECT_GT(simulation->body_state(sleeper).linear_velocity[0], 0.5);
+}
+
+// 0.1 rad/s are 0.1 mrad in a step, below what an arc cosine in single precision tells apart.
+TEST(JoltKinematics, ABodyTurnsEvenlyHoweverSlowly) {
+  TestScene scene(0);
+  const Index body = scene.add_body("body", {{0, 0, 0}});
+  scene.bodies[body].kinematic = true;
+  scene.add_collider("body/shape", body, sphere(0.1));
+  const auto simulation = make_run(scene);
+  for (int step = 1; step <= 50; ++step) {
+    const double half = 0.1 * 1e-3 * step / 2;
+    ASSERT_TRUE(
+        simulation->move_kinematic(body, {{}, {std::cos(half), 0, 0, std::sin(half)}}).has_value());
+    ASSERT_TRUE(simulation->step().has_value());
+    EXPECT_NEAR(simulation->body_state(body).angular_velocity[2], 0.1, 1e-3) << step;
+  }
 }
 
 }  // namespace

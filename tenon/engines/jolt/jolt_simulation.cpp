@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A step gives Jolt what the asset and the user say about its time (Timeline, StepInputs), lets it
-// advance scene by scene on this thread, and takes the result. Where the scene changes, joints that
-// broke included, the model is rebuilt from the scene as it is now, with the bodies as they are.
+// Scene by scene advances on this thread. Jolt can write out bodies, contacts and its own
+// constraints, but the laws along coordinates and the trees that are held as a whole are ours, and
+// the order in which pairs are found is in neither: hence RebuiltSimulation.
 #include "tenon/engines/jolt/jolt_simulation.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "tenon/engines/jolt/build/build.h"
@@ -16,7 +14,6 @@
 #include "tenon/engines/jolt/jolt_runtime.h"
 #include "tenon/engines/jolt/run/contact_forces.h"
 #include "tenon/engines/jolt/run/read_state.h"
-#include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/time_step.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -28,15 +25,6 @@ using scene::PhysicsScene;
 
 constexpr double kFar = 1e9;             // [m] no body is farther from the origin
 constexpr JPH::uint kJobsAtOnce = 2048;  // Jolt's own bound
-
-Error unstable(double time, const std::string& why, const Path& prim) {
-  char text[64];
-  std::snprintf(text, sizeof text, "the simulation became unstable at %.6g s: ", time);
-  return Error(ErrorCode::Unstable, text + why)
-      .with_rule("jolt.unstable")
-      .with_prim(prim.str())
-      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
-}
 
 Result<void> check_methods(const Methods& methods) {
   const bool integrates =
@@ -50,13 +38,6 @@ Result<void> check_methods(const Methods& methods) {
                "Jolt integrates by semi-implicit Euler (euler) and solves by projected "
                "Gauss-Seidel (pgs)")
       .with_rule("engine.method");
-}
-
-bool is_bounded(const JPH::Body& body) {
-  const Vec3d place = from_jolt(body.GetCenterOfMassPosition());
-  return is_finite(place) && length(place) < kFar && !body.GetRotation().IsNaN() &&
-         is_finite(from_jolt(body.GetLinearVelocity())) &&
-         is_finite(from_jolt(body.GetAngularVelocity()));
 }
 
 }  // namespace
@@ -74,16 +55,19 @@ Result<std::unique_ptr<JoltSimulation>> JoltSimulation::make(const PhysicsScene&
 }
 
 JoltSimulation::JoltSimulation(const PhysicsScene& scene, const SimulationOptions& options)
-    : asset_(&scene), options_(options), scene_(&scene), jobs_(kJobsAtOnce) {}
+    : RebuiltSimulation(scene, options), jobs_(kJobsAtOnce) {}
 
-Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
-  timeline_ = timeline_where_needed(*asset_);
-  scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
-  TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
+Result<void> JoltSimulation::build(Begin begin, Diagnostics& diagnostics) {
+  TENON_TRY(model_, build_model(*scene_, options(), time_step(), diagnostics, begin));
   inputs_ = StepInputs(*scene_);
-  energy_bound_ = EnergyBound(model_.time_step);
-  passages_ = {};
   slow_turns_ = SlowTurns(model_);
+  if (begin == Begin::Middle) {
+    return {};
+  }
+  contacts_.clear();
+  inside_.clear();
+  bodies_at_begin_.clear();
+  joints_at_begin_.clear();
   breakable_.clear();
   for (Index j = 0; j < scene_->joints.size(); ++j) {
     if (can_break(scene_->joints[j])) {
@@ -93,37 +77,22 @@ Result<void> JoltSimulation::begin(double time_step, Diagnostics& diagnostics) {
   return {};
 }
 
-Result<void> JoltSimulation::step() {
-  if (timeline_ != nullptr) {
-    TENON_CHECK(follow_changes());
+void JoltSimulation::begin_outputs() {
+  if (!outputs().accelerations) {
+    return;
   }
-  if (options_.outputs.accelerations) {
-    keep_velocities();
+  bodies_at_begin_.clear();
+  joints_at_begin_.clear();
+  for (Index b = 0; b < scene_->bodies.size(); ++b) {
+    bodies_at_begin_.push_back(body_state(b));
   }
-  energy_bound_.begin(*this, *scene_, steering_);
-  passages_.begin(*this, *scene_);
-  inputs_.before_step(model_, steering_, time());
-  TENON_CHECK(advance());
-  slow_turns_.after_step(model_);
-  if (options_.outputs.reactions || !breakable_.empty()) {
-    for (const JPH::Ref<CoordinateLaw>& law : model_.laws) {
-      law->note_impulse();
-    }
+  for (Index j = 0; j < scene_->joints.size(); ++j) {
+    joints_at_begin_.push_back(joint_state(j));
   }
-  ++steps_;
-  TENON_CHECK(check_step());
-  TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "jolt.unstable"));
-  for (Event& passage : passages_.end(*this, *scene_)) {
-    events_.push_back(std::move(passage));
-  }
-  if (options_.outputs.contacts) {
-    contacts_ = read_contacts(*scene_, model_);
-  }
-  take_passages();
-  return break_joints();
 }
 
-Result<void> JoltSimulation::advance() {
+Result<void> JoltSimulation::advance(double now) {
+  inputs_.before_step(model_, steering_, now);
   for (const System& system : model_.systems) {
     system.listener->begin_step(model_.bodies);
     const JPH::EPhysicsUpdateError error =
@@ -133,100 +102,78 @@ Result<void> JoltSimulation::advance() {
           .with_rule("jolt.contacts");
     }
   }
-  return {};
-}
-
-Result<void> JoltSimulation::check_step() const {
-  for (Index b = 0; b < model_.bodies.size(); ++b) {
-    if (!is_bounded(*model_.bodies[b])) {
-      return unstable(time(), "a body left the finite numbers", scene_->bodies[b].path);
+  slow_turns_.after_step(model_);
+  if (outputs().reactions || !breakable_.empty()) {
+    for (const JPH::Ref<CoordinateLaw>& law : model_.laws) {
+      law->note_impulse();
     }
   }
   return {};
 }
 
-void JoltSimulation::take_passages() {
+bool JoltSimulation::is_bounded(Index body) const {
+  const JPH::Body& made = *model_.bodies[body];
+  const Vec3d place = from_jolt(made.GetCenterOfMassPosition());
+  return is_finite(place) && length(place) < kFar && !made.GetRotation().IsNaN() &&
+         is_finite(from_jolt(made.GetLinearVelocity())) &&
+         is_finite(from_jolt(made.GetAngularVelocity()));
+}
+
+void JoltSimulation::end_outputs() {
+  if (outputs().contacts) {
+    contacts_ = read_contacts(*scene_, model_);
+  }
+}
+
+NewEvents JoltSimulation::take_events() {
+  NewEvents happened;
   PairListener::Inside now;
   for (const System& system : model_.systems) {
     now.insert(system.listener->inside().begin(), system.listener->inside().end());
   }
-  const auto tell = [&](const std::pair<Index, Index>& pair, const char* what) {
-    const std::optional<Index>& body = scene_->colliders[pair.second].body;
-    const Path& other = body ? scene_->bodies[*body].path : scene_->colliders[pair.second].path;
-    events_.push_back(
-        {time(), scene_->colliders[pair.first].path, what + ("<" + other.str() + ">")});
-  };
-  for (const auto& pair : now) {
-    if (!inside_.contains(pair)) {
-      tell(pair, "entered by ");
+  for (const auto& [trigger, other] : now) {
+    if (!inside_.contains({trigger, other})) {
+      happened.passages.push_back({trigger, other, true});
     }
   }
-  for (const auto& pair : inside_) {
-    if (!now.contains(pair)) {
-      tell(pair, "left by ");
+  for (const auto& [trigger, other] : inside_) {
+    if (!now.contains({trigger, other})) {
+      happened.passages.push_back({trigger, other, false});
     }
   }
   inside_ = std::move(now);
-}
-
-Result<void> JoltSimulation::break_joints() {
-  bool broke = false;
   for (const Index j : breakable_) {
-    const scene::Joint& joint = scene_->joints[j];
     if (!model_.joints[j].acts) {
       continue;
     }
-    const Wrench load = reaction_of(j);
+    const Wrench load = reaction_of_step(j);
     const double force = length(load.force);
     const double torque = length(load.torque);
-    if (force <= joint.break_force && torque <= joint.break_torque) {
-      continue;
-    }
-    char what[96];
-    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", force, torque);
-    events_.push_back({time(), joint.path, what});
-    timeline_->break_joint(j);
-    broke = true;
-  }
-  return broke ? rebuild() : Result<void>();
-}
-
-Result<void> JoltSimulation::follow_changes() {
-  const scene::SceneChange changed = timeline_->advance(time());
-  if (changed.gravity) {
-    const std::vector<Vec3d> gravity = steering_.gravity_of(*scene_);
-    for (std::size_t s = 0; s < model_.systems.size(); ++s) {
-      model_.systems[s].system->SetGravity(to_jolt(gravity[s]));
+    if (force > scene_->joints[j].break_force || torque > scene_->joints[j].break_torque) {
+      happened.broken.push_back({j, force, torque});
     }
   }
-  return changed.structure || changed.bounds ? rebuild() : Result<void>();
+  return happened;
 }
 
-Result<void> JoltSimulation::rebuild() {
-  std::vector<BodyState> states;
-  for (Index b = 0; b < scene_->bodies.size(); ++b) {
-    states.push_back(body_state(b));
-  }
-  timeline_->restart(states);
-  Diagnostics silent;  // what there is to say was said at the start
-  TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
-  inputs_ = StepInputs(*scene_);
-  energy_bound_ = EnergyBound(model_.time_step);
-  passages_ = {};
-  slow_turns_ = SlowTurns(model_);
-  apply_steering();
-  return {};
+Result<std::unique_ptr<RebuiltSimulation>> JoltSimulation::another(
+    const SimulationOptions& options) const {
+  Diagnostics silent;
+  TENON_TRY(std::unique_ptr<JoltSimulation> made, make(asset(), options, silent));
+  return std::unique_ptr<RebuiltSimulation>(std::move(made));
 }
 
-void JoltSimulation::keep_velocities() {
-  bodies_at_begin_.clear();
-  joints_at_begin_.clear();
-  for (Index b = 0; b < scene_->bodies.size(); ++b) {
-    bodies_at_begin_.push_back(body_state(b));
-  }
-  for (Index j = 0; j < scene_->joints.size(); ++j) {
-    joints_at_begin_.push_back(joint_state(j));
-  }
+void JoltSimulation::take(RebuiltSimulation& other) {
+  RebuiltSimulation::take(other);
+  auto& fresh = static_cast<JoltSimulation&>(other);
+  model_ = std::move(fresh.model_);
+  inputs_ = std::move(fresh.inputs_);
+  slow_turns_ = std::move(fresh.slow_turns_);
+  contacts_ = std::move(fresh.contacts_);
+  inside_ = std::move(fresh.inside_);
+  breakable_ = std::move(fresh.breakable_);
+  bodies_at_begin_ = std::move(fresh.bodies_at_begin_);
+  joints_at_begin_ = std::move(fresh.joints_at_begin_);
 }
 
 BodyState JoltSimulation::body_state(Index body) const { return read_body_state(model_, body); }
@@ -269,24 +216,9 @@ std::size_t JoltSimulation::dof_count() const {
 
 Vec3d JoltSimulation::center_of_mass(Index body) const { return read_center_of_mass(model_, body); }
 
-Vec3d JoltSimulation::gravity(Index scene) const { return steering_.gravity_of(*scene_)[scene]; }
-
 EngineObjects JoltSimulation::engine_objects() const {
   static const std::string version = jolt_version();
   return {"jolt", version, model_.systems.front().system.get(), nullptr};
-}
-
-Result<void> JoltSimulation::reset() {
-  Diagnostics silent;
-  steering_ = {};
-  events_.clear();
-  contacts_.clear();
-  inside_.clear();
-  bodies_at_begin_.clear();
-  joints_at_begin_.clear();
-  log_ = {};
-  steps_ = 0;
-  return begin(model_.time_step, silent);
 }
 
 }  // namespace tenon::engines::jolt

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values that the caller sets are checked, given to Jolt and remembered, so that a rebuilt model
-// gets them again.
+// How values that the caller sets get into Jolt, and what joints and drives did in a step.
 #include <algorithm>
 #include <cmath>
 
@@ -18,15 +17,6 @@ namespace tenon::engines::jolt {
 namespace {
 
 using scene::Index;
-
-Error not_steerable(const Path& prim, const std::string& why) {
-  return Error(ErrorCode::Unsupported, why).with_rule("jolt.not-steerable").with_prim(prim.str());
-}
-
-bool is_of_drive(Parameter what) {
-  return what == Parameter::DriveStiffness || what == Parameter::DriveDamping ||
-         what == Parameter::DriveMaxForce;
-}
 
 bool exerts(const scene::Drive& drive) {
   return (drive.stiffness != 0 || drive.damping != 0) && drive.max_force != 0;
@@ -48,70 +38,22 @@ BodyState moved_along(const BodyState& state, const BodyState& from, const Vec3d
 
 }  // namespace
 
-bool JoltSimulation::can(Ability ability) const { return ability != Ability::Work; }
-
-// Every function that sets something ends here.
-void JoltSimulation::set_from_outside(Input input) {
-  input.step = steps_;
-  log_.add(input);
-  energy_bound_.note(input);
-  passages_.note(input);
-}
-
-Result<void> JoltSimulation::set_drive_target(Index joint, Index drive, const DriveTarget& target) {
-  TENON_CHECK(check_target(*scene_, joint, drive, target));
+Result<void> JoltSimulation::write_target(Index joint, Index drive) {
   const bool acts = model_.joints[joint].drives[drive].has_value() &&
                     exerts(drives_at(*scene_, joint, steering_, time())[drive]);
   if (!acts) {
     return not_steerable(scene_->joints[joint].path,
                          "the drive exerts no force on Jolt: its gains are 0, or it is disabled");
   }
-  steering_.targets[{joint, drive}] = target;
   inputs_.steer_drives(joint, model_, steering_, time());
-  set_from_outside(input_of(joint, drive, target));
   return {};
 }
 
-Result<void> JoltSimulation::set_joint_efforts(Index joint, std::span<const double> efforts) {
-  TENON_CHECK(check_joint(*scene_, joint));
-  TENON_CHECK(check_efforts(*scene_, joint, efforts, joint_state(joint).position.size()));
-  steering_.efforts[joint].assign(efforts.begin(), efforts.end());
-  set_from_outside(input_of(joint, efforts));
-  return {};
-}
-
-Result<void> JoltSimulation::set_body_wrench(Index body, const Wrench& wrench) {
-  TENON_CHECK(check_wrench(*scene_, body, wrench));
-  steering_.wrenches[body] = wrench;
-  set_from_outside(input_of(body, wrench));
-  return {};
-}
-
-Result<void> JoltSimulation::move_kinematic(Index body, const Pose& pose) {
-  TENON_CHECK(check_pose(*scene_, body, pose));
-  steering_.poses[body] = {pose.position, normalized(pose.orientation)};
-  set_from_outside(input_of(body, pose));
-  return {};
-}
-
-Result<void> JoltSimulation::set_gravity(Index scene, const Vec3d& gravity) {
-  TENON_CHECK(check_gravity(*scene_, scene, gravity));
-  steering_.gravity[scene] = gravity;
-  model_.systems[scene].system->SetGravity(to_jolt(gravity));
-  set_from_outside(input_of(scene, gravity));
-  return {};
-}
-
-Result<void> JoltSimulation::set_parameter(const ParameterKey& key, double value) {
-  TENON_CHECK(check_parameter(*scene_, key, value));
-  Steering before = steering_;
-  steering_.parameters[key] = value;
-  Result<void> done = write_parameter(key, value);
-  if (!done) {
-    steering_ = std::move(before);
-    return done;
+Result<void> JoltSimulation::write_gravity() {
+  const std::vector<Vec3d> gravity = steering_.gravity_of(*scene_);
+  for (std::size_t s = 0; s < model_.systems.size(); ++s) {
+    model_.systems[s].system->SetGravity(to_jolt(gravity[s]));
   }
-  set_from_outside(input_of(key, value));
   return {};
 }
 
@@ -121,14 +63,7 @@ Result<void> JoltSimulation::write_parameter(const ParameterKey& key, double val
     return {};
   }
   if (key.what == Parameter::BodyMass) {
-    scene::Body body = scene_->bodies[key.object];
-    const double ratio = value / body.mass;
-    body.mass = value;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        body.inertia[i][k] *= ratio;
-      }
-    }
+    const scene::Body body = with_mass(scene_->bodies[key.object], value);
     if (!body.kinematic) {
       set_mass(body, *model_.bodies[key.object]);
       for (const JPH::Ref<TreeHolder>& tree : model_.trees) {
@@ -168,19 +103,6 @@ Result<void> JoltSimulation::write_joint_parameter(const ParameterKey& key, doub
                                      " can be changed on Jolt where the asset gives the joint one");
 }
 
-// Into a model that knows nothing of it.
-void JoltSimulation::apply_steering() {
-  for (const auto& [key, value] : steering_.parameters) {
-    static_cast<void>(write_parameter(key, value).has_value());  // was possible when it was set
-  }
-  for (const auto& [at, target] : steering_.targets) {
-    inputs_.steer_drives(at.first, model_, steering_, time());
-  }
-  for (const auto& [scene, gravity] : steering_.gravity) {
-    model_.systems[scene].system->SetGravity(to_jolt(gravity));
-  }
-}
-
 void JoltSimulation::write_state(Index body, const BodyState& state) {
   JPH::BodyInterface& bodies =
       model_.systems[scene_->bodies[body].scene].system->GetBodyInterfaceNoLock();
@@ -201,9 +123,7 @@ std::vector<Index> JoltSimulation::bodies_behind(Index body) const {
   return found;
 }
 
-Result<void> JoltSimulation::set_joint_state(Index joint, const JointState& state) {
-  TENON_CHECK(check_joint(*scene_, joint));
-  TENON_CHECK(check_joint_state(*scene_, joint, state, joint_state(joint).position.size()));
+Result<void> JoltSimulation::write_joint_state(Index joint, const JointState& state) {
   const scene::Joint& source = scene_->joints[joint];
   const auto hangs_on_it = [&](const std::optional<Index>& body) {
     return body.has_value() && model_.forest.bodies[*body].joint == joint;
@@ -249,12 +169,10 @@ Result<void> JoltSimulation::set_joint_state(Index joint, const JointState& stat
       map.laws[i]->count_from(0, state.position[i]);
     }
   }
-  set_from_outside(input_of(joint, state));
   return {};
 }
 
-Result<void> JoltSimulation::set_body_state(Index body, const BodyState& state) {
-  TENON_CHECK(check_body_state(*scene_, body, state));
+Result<void> JoltSimulation::write_body_state(Index body, const BodyState& state) {
   if (scene_->bodies[body].kinematic || model_.forest.bodies[body].joint.has_value()) {
     return not_steerable(scene_->bodies[body].path,
                          "the body hangs on a joint or is moved by the asset");
@@ -269,23 +187,11 @@ Result<void> JoltSimulation::set_body_state(Index body, const BodyState& state) 
                                      : moved_along(body_state(other), from, from_center, to, center,
                                                    center_of_mass(other)));
   }
-  set_from_outside(input_of(body, state));
   return {};
 }
 
-Result<std::vector<Contact>> JoltSimulation::contacts() const {
-  if (!outputs().contacts) {
-    return output_off("contacts");
-  }
-  return contacts_;
-}
-
 // What its term has exerted during the step.
-Result<std::vector<double>> JoltSimulation::drive_efforts(Index joint) const {
-  if (!outputs().efforts) {
-    return output_off("efforts");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
+std::vector<double> JoltSimulation::efforts_of_step(Index joint) const {
   const JointMap& map = model_.joints[joint];
   std::vector<double> efforts(map.drives.size(), 0);
   for (std::size_t d = 0; d < efforts.size(); ++d) {
@@ -296,18 +202,10 @@ Result<std::vector<double>> JoltSimulation::drive_efforts(Index joint) const {
   return efforts;
 }
 
-Result<Wrench> JoltSimulation::joint_reaction(Index joint) const {
-  if (!outputs().reactions) {
-    return output_off("reactions");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
-  return reaction_of(joint);
-}
-
-Wrench JoltSimulation::reaction_of(Index joint) const {
+Wrench JoltSimulation::reaction_of_step(Index joint) const {
   Wrench reaction = read_reaction(model_, joint);
   const auto set = steering_.efforts.find(joint);
-  if (set != steering_.efforts.end() && steps_ > 0 && model_.joints[joint].acts) {
+  if (set != steering_.efforts.end() && steps() > 0 && model_.joints[joint].acts) {
     const scene::Joint& source = scene_->joints[joint];
     const Wrench effort = effort_wrench(
         source, model_.joints[joint].dofs, read_side(model_, source.body0, source.frame0).frame,
@@ -318,32 +216,12 @@ Wrench JoltSimulation::reaction_of(Index joint) const {
   return reaction;
 }
 
-Result<BodyAcceleration> JoltSimulation::body_acceleration(Index body) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_body(*scene_, body));
-  if (body >= bodies_at_begin_.size()) {
-    return BodyAcceleration{};
-  }
-  const BodyState now = body_state(body);
-  const BodyState& before = bodies_at_begin_[body];
-  return BodyAcceleration{(now.linear_velocity - before.linear_velocity) * (1 / time_step()),
-                          (now.angular_velocity - before.angular_velocity) * (1 / time_step())};
+BodyAcceleration JoltSimulation::body_acceleration_of_step(Index body) const {
+  return mean_acceleration(bodies_at_begin_, body, body_state(body), time_step());
 }
 
-Result<std::vector<double>> JoltSimulation::joint_acceleration(Index joint) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
-  std::vector<double> result = joint_state(joint).velocity;
-  const bool known =
-      joint < joints_at_begin_.size() && joints_at_begin_[joint].velocity.size() == result.size();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = known ? (result[i] - joints_at_begin_[joint].velocity[i]) / time_step() : 0;
-  }
-  return result;
+std::vector<double> JoltSimulation::joint_acceleration_of_step(Index joint) const {
+  return mean_acceleration(joints_at_begin_, joint, joint_state(joint), time_step());
 }
 
 }  // namespace tenon::engines::jolt

@@ -97,9 +97,9 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::from_start(
 
 MujocoSimulation::MujocoSimulation(std::shared_ptr<const Start> start,
                                    std::unique_ptr<scene::Timeline> timeline, Model model)
-    : start_(std::move(start)),
+    : SteeredSimulation(timeline == nullptr ? *start->scene : timeline->scene()),
+      start_(std::move(start)),
       timeline_(std::move(timeline)),
-      scene_(timeline_ == nullptr ? start_->scene : &timeline_->scene()),
       model_(std::move(model)),
       triggers_(*scene_) {
   connect();
@@ -164,9 +164,9 @@ Result<void> MujocoSimulation::step() {
 Result<void> MujocoSimulation::follow_changes() {
   const double now = time();
   scene::SceneChange changed;
-  TENON_CHECK(change([&]() -> Result<void> {
+  TENON_CHECK(accounted([&]() -> Result<void> {
     changed = timeline_->advance(now);
-    return changed.gravity ? write_gravities() : Result<void>();
+    return changed.gravity ? write_gravity() : Result<void>();
   }));
   const bool fits = !changed.bounds || bounds_.write(*scene_, model_);
   if (changed.structure || !fits) {
@@ -176,8 +176,8 @@ Result<void> MujocoSimulation::follow_changes() {
   return {};
 }
 
-Result<void> MujocoSimulation::write_gravities() {
-  write_gravity(*scene_, steering_, model_);
+Result<void> MujocoSimulation::write_gravity() {
+  mujoco::write_gravity(*scene_, steering_, model_);
   energy_watch_.restart();
   inputs_.take_constant_forces(model_);
   return {};
@@ -185,7 +185,7 @@ Result<void> MujocoSimulation::write_gravities() {
 
 // From where the last model has brought the bodies.
 Result<void> MujocoSimulation::rebuild(Restart restart) {
-  return change([&]() -> Result<void> {
+  return accounted([&]() -> Result<void> {
     for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
       restart.states.push_back(body_state(static_cast<scene::Index>(b)));
     }
@@ -243,7 +243,8 @@ Result<void> MujocoSimulation::watch() {
   return Error(ErrorCode::Unstable, text)
       .with_rule("mujoco.unstable")
       .with_prim(name == nullptr ? "" : name)
-      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
+      .with_fix("start within the limits of joints, where one begins outside; else take a smaller "
+                "time step or softer drives");
 }
 
 void MujocoSimulation::bring_up_to_date() const {
@@ -278,10 +279,6 @@ JointState MujocoSimulation::joint_state(scene::Index joint) const {
 Vec3d MujocoSimulation::center_of_mass(scene::Index body) const {
   bring_up_to_date();
   return read_center_of_mass(model_, body);
-}
-
-Vec3d MujocoSimulation::gravity(scene::Index scene) const {
-  return steering_.gravity_of(*scene_)[scene];
 }
 
 Energy MujocoSimulation::energy() const {

@@ -161,7 +161,7 @@ Result<void> MujocoSimulation::replay(const SavedRun& run) {
       return bad_state("its restarts are not those of this scene");
     }
     if (change.gravity) {
-      TENON_CHECK(write_gravities());
+      TENON_CHECK(write_gravity());
     }
   }
   advanced_to_ = run.advanced_to;

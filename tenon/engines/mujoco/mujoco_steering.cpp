@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values that the caller sets are checked, written into the model and remembered, so that a rebuilt
-// model gets them again. Values of the model itself (parameters, gravity) go into a copy of its own
-// where others step the same one. A kinematic body that nothing moves is a part of the world in
-// MuJoCo: the first pose that is set rebuilds the model, with the body as one that is driven.
+// How values that the caller sets get into MuJoCo, and what joints and drives did in a step. Values
+// of the model itself (parameters, gravity) go into a copy of its own where others step the same
+// one. A kinematic body that nothing moves is a part of the world in MuJoCo: the first pose that is
+// set rebuilds the model, with the body as one that is driven.
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 #include "tenon/engines/mujoco/run/carry_over.h"
@@ -15,11 +15,6 @@ namespace tenon::engines::mujoco {
 namespace {
 
 using scene::Index;
-
-bool is_of_drive(Parameter what) {
-  return what == Parameter::DriveStiffness || what == Parameter::DriveDamping ||
-         what == Parameter::DriveMaxForce;
-}
 
 Result<std::size_t> drive_of(const Model& model, const scene::PhysicsScene& scene, Index joint,
                              Index drive) {
@@ -36,50 +31,20 @@ Result<std::size_t> drive_of(const Model& model, const scene::PhysicsScene& scen
 
 }  // namespace
 
-bool MujocoSimulation::can(Ability /*ability*/) const { return true; }
-
 EngineObjects MujocoSimulation::engine_objects() const {
   return {"mujoco", mj_versionString(), model_.model.get(), model_.data.get()};
 }
 
-Result<void> MujocoSimulation::set_drive_target(Index joint, Index drive,
-                                                const DriveTarget& target) {
-  TENON_CHECK(check_target(*scene_, joint, drive, target));
+Result<void> MujocoSimulation::write_target(Index joint, Index drive) {
   TENON_TRY(const std::size_t at, drive_of(model_, *scene_, joint, drive));
-  inputs_.set_target(at, target, model_);
-  steering_.targets[{joint, drive}] = target;
+  inputs_.set_target(at, steering_.targets.at({joint, drive}), model_);
   return {};
 }
 
-Result<void> MujocoSimulation::set_joint_efforts(Index joint, std::span<const double> efforts) {
-  TENON_CHECK(check_joint(*scene_, joint));
-  TENON_CHECK(check_efforts(*scene_, joint, efforts, joint_state(joint).position.size()));
-  steering_.efforts[joint].assign(efforts.begin(), efforts.end());
-  return {};
-}
-
-Result<void> MujocoSimulation::set_body_wrench(Index body, const Wrench& wrench) {
-  TENON_CHECK(check_wrench(*scene_, body, wrench));
-  steering_.wrenches[body] = wrench;
-  return write_gravities();
-}
-
-Result<void> MujocoSimulation::set_gravity(Index scene, const Vec3d& gravity) {
-  TENON_CHECK(check_gravity(*scene_, scene, gravity));
-  return change([&] {
-    steering_.gravity[scene] = gravity;
-    return write_gravities();
-  });
-}
-
-Result<void> MujocoSimulation::move_kinematic(Index body, const Pose& pose) {
-  TENON_CHECK(check_pose(*scene_, body, pose));
-  const Pose wanted{pose.position, normalized(pose.orientation)};
-  steering_.poses[body] = wanted;
-  return inputs_.set_pose(body, wanted) ? Result<void>() : drive_body(body);
-}
-
-Result<void> MujocoSimulation::drive_body(Index body) {
+Result<void> MujocoSimulation::write_pose(Index body) {
+  if (inputs_.set_pose(body, steering_.poses.at(body))) {
+    return {};
+  }
   if (timeline_ == nullptr) {
     timeline_ = timeline_of(*start_->scene);
     scene_ = &timeline_->scene();
@@ -88,80 +53,47 @@ Result<void> MujocoSimulation::drive_body(Index body) {
   return rebuild({time(), advanced_to_, {}, {body}, {}});
 }
 
-Result<void> MujocoSimulation::set_parameter(const ParameterKey& key, double value) {
-  TENON_CHECK(check_parameter(*scene_, key, value));
-  return change([&]() -> Result<void> {
-    TENON_CHECK(apply_parameter(key, value));
-    energy_watch_.restart();
-    steering_.parameters[key] = value;
-    return {};
-  });
-}
-
-Result<void> MujocoSimulation::apply_parameter(const ParameterKey& key, double value) {
+Result<void> MujocoSimulation::write_parameter(const ParameterKey& key, double value) {
+  stale_ = true;
   if (is_of_drive(key.what)) {
     TENON_TRY(const std::size_t at, drive_of(model_, *scene_, key.object, key.part));
     inputs_.set_gain(at, key.what, value, model_);
     return {};
   }
-  TENON_CHECK(write_parameter(*scene_, key, value, model_));
-  return key.what == Parameter::BodyMass ? write_gravities() : Result<void>();
+  TENON_CHECK(mujoco::write_parameter(*scene_, key, value, model_));
+  return key.what == Parameter::BodyMass ? write_gravity() : Result<void>();
 }
 
-// Into a model that knows nothing of it. What no longer exists there stays remembered.
 Result<void> MujocoSimulation::apply_steering() {
   if (steering_.empty()) {
     return {};
   }
-  for (const auto& [key, value] : steering_.parameters) {
-    if (Result<void> done = apply_parameter(key, value);
-        !done && done.error().code() != ErrorCode::Unsupported) {
-      return done;
-    }
-  }
-  for (const auto& [at, target] : steering_.targets) {
-    const int drive = find_drive(model_, at.first, at.second);
-    if (drive >= 0) {
-      inputs_.set_target(static_cast<std::size_t>(drive), target, model_);
-    }
-  }
+  TENON_CHECK(write_steering());
   for (const auto& [body, pose] : steering_.poses) {
     inputs_.set_pose(body, pose);
   }
-  return write_gravities();
+  return write_gravity();
 }
 
-Result<void> MujocoSimulation::set_joint_state(Index joint, const JointState& state) {
-  TENON_CHECK(check_joint(*scene_, joint));
-  TENON_CHECK(check_joint_state(*scene_, joint, state, joint_state(joint).position.size()));
-  return change([&] {
-    stale_ = true;
+Result<void> MujocoSimulation::write_joint_state(Index joint, const JointState& state) {
+  stale_ = true;
+  return mujoco::write_joint_state(*scene_, joint, state, model_);
+}
+
+Result<void> MujocoSimulation::write_body_state(Index body, const BodyState& state) {
+  stale_ = true;
+  return mujoco::write_body_state(*scene_, body, state, model_);
+}
+
+// Energy that came with it has another source than steps.
+void MujocoSimulation::note(const Input& input) {
+  if (input.kind == InputKind::Parameters || input.kind == InputKind::JointStates ||
+      input.kind == InputKind::BodyStates) {
     energy_watch_.restart();
-    return write_joint_state(*scene_, joint, state, model_);
-  });
-}
-
-Result<void> MujocoSimulation::set_body_state(Index body, const BodyState& state) {
-  TENON_CHECK(check_body_state(*scene_, body, state));
-  return change([&] {
-    stale_ = true;
-    energy_watch_.restart();
-    return write_body_state(*scene_, body, state, model_);
-  });
-}
-
-Result<std::vector<Contact>> MujocoSimulation::contacts() const {
-  if (!outputs().contacts) {
-    return output_off("contacts");
   }
-  return outputs_->contacts;
 }
 
-Result<std::vector<double>> MujocoSimulation::drive_efforts(Index joint) const {
-  if (!outputs().efforts) {
-    return output_off("efforts");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
+std::vector<double> MujocoSimulation::efforts_of_step(Index joint) const {
   std::vector<double> result(scene_->joints[joint].drives.size(), 0);
   for (std::size_t i = 0; i < model_.drives.size() && i < outputs_->drive_efforts.size(); ++i) {
     if (model_.drives[i].joint == joint) {
@@ -171,42 +103,16 @@ Result<std::vector<double>> MujocoSimulation::drive_efforts(Index joint) const {
   return result;
 }
 
-Result<Wrench> MujocoSimulation::joint_reaction(Index joint) const {
-  if (!outputs().reactions) {
-    return output_off("reactions");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
+Wrench MujocoSimulation::reaction_of_step(Index joint) const {
   return joint < outputs_->reactions.size() ? outputs_->reactions[joint] : Wrench{};
 }
 
-Result<BodyAcceleration> MujocoSimulation::body_acceleration(Index body) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_body(*scene_, body));
+BodyAcceleration MujocoSimulation::body_acceleration_of_step(Index body) const {
   return body < outputs_->bodies.size() ? outputs_->bodies[body] : BodyAcceleration{};
 }
 
-Result<std::vector<double>> MujocoSimulation::joint_acceleration(Index joint) const {
-  if (!outputs().accelerations) {
-    return output_off("accelerations");
-  }
-  TENON_CHECK(check_joint(*scene_, joint));
-  std::vector<double> result = joint_state(joint).velocity;
-  const bool known = joint < outputs_->joints_at_begin.size() &&
-                     outputs_->joints_at_begin[joint].velocity.size() == result.size();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] =
-        known ? (result[i] - outputs_->joints_at_begin[joint].velocity[i]) / time_step() : 0;
-  }
-  return result;
-}
-
-Result<Work> MujocoSimulation::work() const {
-  if (!outputs().work) {
-    return output_off("work");
-  }
-  return outputs_->work;
+std::vector<double> MujocoSimulation::joint_acceleration_of_step(Index joint) const {
+  return mean_acceleration(outputs_->joints_at_begin, joint, joint_state(joint), time_step());
 }
 
 }  // namespace tenon::engines::mujoco

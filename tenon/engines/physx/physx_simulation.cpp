@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A step gives PhysX what the asset and the user say about its time (Timeline, StepInputs), lets it
-// advance scene by scene on this thread, and takes the result. Where the scene changes, joints that
-// broke included, the model is rebuilt from the scene as it is now, with the bodies as they are.
+// Scene by scene advances on this thread. PhysX keeps from step to step what nobody can read or
+// write: which points of two shapes touched, where friction holds them, in which order pairs were
+// found. Hence RebuiltSimulation.
 #include "tenon/engines/physx/physx_simulation.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "tenon/engines/physx/build/build.h"
@@ -15,7 +14,6 @@
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/run/follow_frames.h"
 #include "tenon/engines/physx/run/read_state.h"
-#include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/time_step.h"
 
 namespace tenon::engines::physx {
@@ -24,18 +22,7 @@ namespace {
 using scene::Index;
 using scene::PhysicsScene;
 
-Error unstable(double time, const std::string& why, const Path& prim) {
-  char text[64];
-  std::snprintf(text, sizeof text, "the simulation became unstable at %.6g s: ", time);
-  return Error(ErrorCode::Unstable, text + why)
-      .with_rule("physx.unstable")
-      .with_prim(prim.str())
-      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
-}
-
-bool is_bounded(const px::PxTransform& pose) {
-  return pose.p.isFinite() && pose.q.isFinite() && pose.p.magnitude() < 1e9F;
-}
+constexpr float kFar = 1e9F;  // [m] no body is farther from the origin
 
 Result<void> check_methods(const SimulationOptions& options) {
   if (options.drives == DriveTerms::Explicit) {
@@ -73,18 +60,11 @@ Result<std::unique_ptr<PhysxSimulation>> PhysxSimulation::make(const PhysicsScen
 }
 
 PhysxSimulation::PhysxSimulation(const PhysicsScene& scene, const SimulationOptions& options)
-    : asset_(&scene), options_(options), scene_(&scene) {}
+    : RebuiltSimulation(scene, options) {}
 
-Result<void> PhysxSimulation::begin(double time_step, Diagnostics& diagnostics) {
-  timeline_ = timeline_where_needed(*asset_);
-  scene_ = timeline_ == nullptr ? asset_ : &timeline_->scene();
-  TENON_TRY(model_, build_model(*scene_, options_, time_step, diagnostics, Begin::Start));
-  outputs_ = StepOutputs(options_.outputs);
-  connect();
-  return {};
-}
-
-void PhysxSimulation::connect() {
+// The callbacks of the model before live until it has gone.
+Result<void> PhysxSimulation::build(Begin begin, Diagnostics& diagnostics) {
+  TENON_TRY(model_, build_model(*scene_, options(), time_step(), diagnostics, begin));
   auto told = std::make_unique<StepEvents>(*scene_, **open_physx(), model_.time_step);
   auto surfaces = std::make_unique<SurfaceMotion>(*scene_);
   for (px::PxScene* scene : model_.scenes) {
@@ -94,44 +74,33 @@ void PhysxSimulation::connect() {
   told_ = std::move(told);
   surfaces_ = std::move(surfaces);
   inputs_ = StepInputs(*scene_);
-  energy_bound_ = EnergyBound(model_.time_step);
-  passages_ = {};
   stale_ = true;
+  if (begin == Begin::Start) {
+    outputs_ = StepOutputs(outputs());
+    contacts_.clear();
+  }
+  return {};
 }
 
-Result<void> PhysxSimulation::step() {
-  Messages messages;
-  if (timeline_ != nullptr) {
-    TENON_CHECK(follow_changes());
-  }
+void PhysxSimulation::begin_outputs() {
   if (outputs_.follows_motion()) {
     bring_up_to_date();
     outputs_.begin(*scene_, model_);
   }
-  energy_bound_.begin(*this, *scene_, steering_);
-  passages_.begin(*this, *scene_);
-  inputs_.before_step(model_, steering_, time());
-  advance();
-  if (!messages.errors().empty()) {
-    return unstable(time(), "PhysX says: " + messages.errors().front(), {});
-  }
-  TENON_CHECK(check_step());
-  TENON_CHECK(energy_bound_.end(*this, *scene_, steering_, "physx.unstable"));
-  for (Event& passage : passages_.end(*this, *scene_)) {
-    events_.push_back(std::move(passage));
-  }
-  contacts_ = std::move(told_->contacts);
-  if (outputs_.follows_motion()) {
-    bring_up_to_date();
-    outputs_.end(*scene_, model_, inputs_, steering_, contacts_, time() - model_.time_step);
-  }
-  return take_events();
 }
 
-void PhysxSimulation::advance() {
+Result<void> PhysxSimulation::advance(double now) {
+  const Messages messages;
+  inputs_.before_step(model_, steering_, now);
+  step_scenes();
+  return messages.errors().empty() ? Result<void>()
+                                   : unstable("PhysX says: " + messages.errors().front(), {});
+}
+
+void PhysxSimulation::step_scenes() {
   told_->clear();
   stale_ = true;
-  const bool with_contacts = needs_contacts(options_.outputs);
+  const bool with_contacts = needs_contacts(outputs());
   for (px::PxScene* scene : model_.scenes) {
     if (with_contacts) {
       told_->begin_scene(true);
@@ -142,49 +111,19 @@ void PhysxSimulation::advance() {
   if (with_contacts) {
     told_->begin_scene(false);
   }
-  ++steps_;
 }
 
-Result<void> PhysxSimulation::check_step() const {
-  for (Index b = 0; b < model_.bodies.size(); ++b) {
-    if (!is_bounded(model_.bodies[b]->getGlobalPose())) {
-      return unstable(time(), "a body left the finite numbers", scene_->bodies[b].path);
-    }
-  }
-  return {};
+bool PhysxSimulation::is_bounded(Index body) const {
+  const px::PxTransform pose = model_.bodies[body]->getGlobalPose();
+  return pose.p.isFinite() && pose.q.isFinite() && pose.p.magnitude() < kFar;
 }
 
-Result<void> PhysxSimulation::take_events() {
-  for (const StepEvents::Passed& passed : told_->passed) {
-    const std::optional<Index>& body = scene_->colliders[passed.other].body;
-    const Path& other = body ? scene_->bodies[*body].path : scene_->colliders[passed.other].path;
-    const Path& trigger = scene_->colliders[passed.trigger].path;
-    events_.push_back(
-        {time(), trigger, (passed.inside ? "entered by <" : "left by <") + other.str() + ">"});
+void PhysxSimulation::end_outputs() {
+  contacts_ = std::move(told_->contacts);
+  if (outputs_.follows_motion()) {
+    bring_up_to_date();
+    outputs_.end(*scene_, model_, inputs_, steering_, contacts_, time() - model_.time_step);
   }
-  if (told_->broken.empty()) {
-    return {};
-  }
-  for (const StepEvents::Broken& part : told_->broken) {
-    char what[96];
-    std::snprintf(what, sizeof what, "broke under %.4g N and %.4g N m", part.force, part.torque);
-    events_.push_back({time(), scene_->joints[part.joint].path, what});
-    timeline_->break_joint(part.joint);
-  }
-  return rebuild();
-}
-
-Result<void> PhysxSimulation::follow_changes() {
-  const double before = energy_to_compare();
-  const scene::SceneChange changed = timeline_->advance(time());
-  outputs_.add_change(energy_to_compare() - before);
-  if (changed.gravity) {
-    const std::vector<Vec3d> gravity = steering_.gravity_of(*scene_);
-    for (std::size_t s = 0; s < model_.scenes.size(); ++s) {
-      model_.scenes[s]->setGravity(to_px(gravity[s]));
-    }
-  }
-  return changed.structure || (changed.bounds && !move_bounds()) ? rebuild() : Result<void>();
 }
 
 bool PhysxSimulation::move_bounds() {
@@ -194,20 +133,28 @@ bool PhysxSimulation::move_bounds() {
                      });
 }
 
-Result<void> PhysxSimulation::rebuild() {
-  std::vector<BodyState> states;
-  for (Index b = 0; b < scene_->bodies.size(); ++b) {
-    states.push_back(body_state(b));
-  }
-  states = follow_joint_frames(*scene_, model_, std::move(states));
-  const double before = energy_to_compare();
-  timeline_->restart(states);
-  Diagnostics silent;  // what there is to say was said at the start
-  TENON_TRY(model_, build_model(*scene_, options_, model_.time_step, silent, Begin::Middle));
-  connect();
-  apply_steering();
-  outputs_.add_change(energy_to_compare() - before);
-  return {};
+std::vector<BodyState> PhysxSimulation::states_to_carry() const {
+  return follow_joint_frames(*scene_, model_, RebuiltSimulation::states_to_carry());
+}
+
+Result<std::unique_ptr<RebuiltSimulation>> PhysxSimulation::another(
+    const SimulationOptions& options) const {
+  Diagnostics silent;
+  TENON_TRY(std::unique_ptr<PhysxSimulation> made, make(asset(), options, silent));
+  return std::unique_ptr<RebuiltSimulation>(std::move(made));
+}
+
+// The model ends before what it calls.
+void PhysxSimulation::take(RebuiltSimulation& other) {
+  RebuiltSimulation::take(other);
+  auto& fresh = static_cast<PhysxSimulation&>(other);
+  model_ = std::move(fresh.model_);
+  told_ = std::move(fresh.told_);
+  surfaces_ = std::move(fresh.surfaces_);
+  inputs_ = std::move(fresh.inputs_);
+  contacts_ = std::move(fresh.contacts_);
+  outputs_ = std::move(fresh.outputs_);
+  stale_ = true;
 }
 
 void PhysxSimulation::bring_up_to_date() const {
@@ -250,21 +197,9 @@ Vec3d PhysxSimulation::center_of_mass(Index body) const {
   return read_center_of_mass(model_, body);
 }
 
-Vec3d PhysxSimulation::gravity(Index scene) const { return steering_.gravity_of(*scene_)[scene]; }
-
 EngineObjects PhysxSimulation::engine_objects() const {
   static const std::string version = physx_version();
   return {"physx", version, model_.scenes.empty() ? nullptr : model_.scenes.front(), nullptr};
-}
-
-Result<void> PhysxSimulation::reset() {
-  Diagnostics silent;
-  steering_ = {};
-  events_.clear();
-  contacts_.clear();
-  log_ = {};
-  steps_ = 0;
-  return begin(model_.time_step, silent);
 }
 
 }  // namespace tenon::engines::physx

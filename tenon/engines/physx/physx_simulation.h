@@ -6,30 +6,22 @@
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
-#include "tenon/engines/input_log.h"
 #include "tenon/engines/physx/model.h"
 #include "tenon/engines/physx/run/step_events.h"
 #include "tenon/engines/physx/run/step_inputs.h"
 #include "tenon/engines/physx/run/step_outputs.h"
-#include "tenon/engines/simulation.h"
-#include "tenon/engines/steering.h"
-#include "tenon/engines/watches/energy_bound.h"
-#include "tenon/engines/watches/passage_watch.h"
-#include "tenon/scene/timeline/timeline.h"
+#include "tenon/engines/rebuilt_simulation.h"
 
 namespace tenon::engines::physx {
 
 /// Steps one model. One object belongs to one thread at a time.
-class PhysxSimulation final : public Simulation {
+class PhysxSimulation final : public RebuiltSimulation {
  public:
   /// `scene` must outlive the simulation. Errors are those of build_model.
   static Result<std::unique_ptr<PhysxSimulation>> make(const scene::PhysicsScene& scene,
                                                        const SimulationOptions& options,
                                                        Diagnostics& diagnostics);
 
-  Result<void> step() override;
-  double time() const override { return static_cast<double>(steps_) * model_.time_step; }
-  double time_step() const override { return model_.time_step; }
   BodyState body_state(scene::Index body) const override;
   JointState joint_state(scene::Index joint) const override;
   Energy energy() const override;
@@ -37,68 +29,49 @@ class PhysxSimulation final : public Simulation {
   std::size_t dof_count() const override;
   const std::vector<NotMapped>& not_mapped() const override { return model_.not_mapped; }
   std::vector<scene::VendorSetting> settings() const override;
-  const std::vector<Event>& events() const override { return events_; }
   Vec3d center_of_mass(scene::Index body) const override;
-  bool can(Ability ability) const override;
+  bool can(Ability /*ability*/) const override { return true; }
   EngineObjects engine_objects() const override;
-  Vec3d gravity(scene::Index scene) const override;
-  const Outputs& outputs() const override { return options_.outputs; }
-
-  Result<void> set_drive_target(scene::Index joint, scene::Index drive,
-                                const DriveTarget& target) override;
-  Result<void> set_joint_efforts(scene::Index joint, std::span<const double> efforts) override;
-  Result<void> set_body_wrench(scene::Index body, const Wrench& wrench) override;
-  Result<void> move_kinematic(scene::Index body, const Pose& pose) override;
-  Result<void> set_gravity(scene::Index scene, const Vec3d& gravity) override;
-  Result<void> set_parameter(const ParameterKey& key, double value) override;
-  Result<void> set_joint_state(scene::Index joint, const JointState& state) override;
-  Result<void> set_body_state(scene::Index body, const BodyState& state) override;
-  Result<void> reset() override;
-  Result<std::string> save_state() const override;
-  Result<void> restore_state(std::string_view bytes) override;
-
-  Result<std::vector<Contact>> contacts() const override;
-  Result<std::vector<double>> drive_efforts(scene::Index joint) const override;
-  Result<Wrench> joint_reaction(scene::Index joint) const override;
-  Result<BodyAcceleration> body_acceleration(scene::Index body) const override;
-  Result<std::vector<double>> joint_acceleration(scene::Index joint) const override;
-  Result<Work> work() const override;
 
  private:
   PhysxSimulation(const scene::PhysicsScene& scene, const SimulationOptions& options);
-  Result<void> begin(double time_step, Diagnostics& diagnostics);
-  void connect();
-  Result<void> follow_changes();
-  bool move_bounds();
-  Result<void> rebuild();
-  Result<void> take_events();
-  Result<void> check_step() const;
-  void advance();
-  Result<void> write_parameter(const ParameterKey& key, double value);
+
+  Result<void> build(Begin begin, Diagnostics& diagnostics) override;
+  void begin_outputs() override;
+  Result<void> advance(double now) override;
+  bool is_bounded(scene::Index body) const override;
+  void end_outputs() override;
+  NewEvents take_events() override { return std::move(told_->happened); }
+  bool move_bounds() override;
+  std::vector<BodyState> states_to_carry() const override;
+  Result<std::unique_ptr<RebuiltSimulation>> another(
+      const SimulationOptions& options) const override;
+  void take(RebuiltSimulation& other) override;
+
+  Result<void> write_target(scene::Index joint, scene::Index drive) override;
+  Result<void> write_gravity() override;
+  Result<void> write_parameter(const ParameterKey& key, double value) override;
+  Result<void> write_joint_state(scene::Index joint, const JointState& state) override;
+  Result<void> write_body_state(scene::Index body, const BodyState& state) override;
+  void add_change(double energy) override { outputs_.add_change(energy); }
+
+  std::vector<Contact> contacts_of_step() const override { return contacts_; }
+  std::vector<double> efforts_of_step(scene::Index joint) const override;
+  Wrench reaction_of_step(scene::Index joint) const override;
+  BodyAcceleration body_acceleration_of_step(scene::Index body) const override;
+  std::vector<double> joint_acceleration_of_step(scene::Index joint) const override;
+  Work work_of_run() const override { return outputs_.work(); }
+
+  void step_scenes();
   Result<void> write_joint_parameter(const ParameterKey& key);
-  void apply_steering();
-  double energy_to_compare() const;
-  void set_from_outside(Input input, double energy_before);
-  StateOwner owner() const;
-  void take(PhysxSimulation& other);
   void bring_up_to_date() const;
 
-  const scene::PhysicsScene* asset_;  ///< as it was given
-  SimulationOptions options_;
-  std::unique_ptr<scene::Timeline> timeline_;  ///< where the scene may change, else null
-  const scene::PhysicsScene* scene_;           ///< as it is now: the timeline's, or what was given
-  std::unique_ptr<StepEvents> told_;           ///< outlives the model, which holds it
+  std::unique_ptr<StepEvents> told_;  ///< outlives the model, which holds it
   std::unique_ptr<SurfaceMotion> surfaces_;
   Model model_;
   StepInputs inputs_;
-  EnergyBound energy_bound_;
-  PassageWatch passages_;
-  Steering steering_;
-  std::vector<Event> events_;
   std::vector<Contact> contacts_;
   StepOutputs outputs_;
-  InputLog log_;
-  std::uint64_t steps_ = 0;
   mutable bool stale_ = true;  ///< caches are of an earlier step
 };
 

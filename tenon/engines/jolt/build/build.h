@@ -9,17 +9,12 @@
 #include "tenon/base/result.h"
 #include "tenon/engines/jolt/convert.h"
 #include "tenon/engines/jolt/model.h"
+#include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_forest.h"
 
 /// Neutral scene -> Jolt, pass by pass. Internal to the adapter.
 namespace tenon::engines::jolt {
-
-/// Where a model begins.
-enum class Begin : std::uint8_t {
-  Start,   ///< at the start of a run
-  Middle,  ///< in it: the bodies' poses and velocities are those of the run
-};
 
 /// Jolt's iterations of velocities and positions where bodies hang on joints, and its own
 /// elsewhere.

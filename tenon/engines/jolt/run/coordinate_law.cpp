@@ -123,10 +123,11 @@ double now_at(const CoordinateOf& part, const Pose& frame0, const Pose& frame1) 
 CoordinateLaw::CoordinateLaw(std::vector<CoordinateOf> parts)
     : Constraint(LawSettings()), parts_(std::move(parts)) {}
 
-std::size_t CoordinateLaw::share_of(JPH::Body* body) {
-  const auto found = std::find_if(shares_.begin(), shares_.end(),
-                                  [&](const Share& share) { return share.body == body; });
-  if (found == shares_.end()) {
+std::size_t CoordinateLaw::share_of(JPH::Body* body, std::size_t among) {
+  const auto end = shares_.begin() + static_cast<std::ptrdiff_t>(std::min(among, shares_.size()));
+  const auto found =
+      std::find_if(shares_.begin(), end, [&](const Share& share) { return share.body == body; });
+  if (found == end) {
     shares_.push_back({body, {}, {}, {}, {}});
     return shares_.size() - 1;
   }
@@ -257,7 +258,8 @@ void CoordinateLaw::find_tree_answers() {
   in_tree_ = tree_->answer(sum);
   answer_ = in_tree_.speed;
   for (std::size_t i = 0; i < in_tree_.bodies.size(); ++i) {
-    Share& share = shares_[share_of(in_tree_.bodies[i])];
+    // A tree has each body once.
+    Share& share = shares_[share_of(in_tree_.bodies[i], speaking_)];
     share.linear_answer = in_tree_.velocities[i].move;
     share.angular_answer = in_tree_.velocities[i].turn;
   }

@@ -137,7 +137,8 @@ class CoordinateLaw final : public JPH::Constraint {
     std::vector<Vec3d> linear;
     std::vector<Vec3d> angular;
   };
-  std::size_t share_of(JPH::Body* body);
+  /// Its number, made if it is not one of the first `among`.
+  std::size_t share_of(JPH::Body* body, std::size_t among = static_cast<std::size_t>(-1));
   void add_share(JPH::Body* body, const Vec3d& linear, const Vec3d& angular);
   void add_held(JPH::Body* body, const Vec3d& linear, const Vec3d& angular, Direction& held);
   void add_part(std::size_t index);

@@ -12,6 +12,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/build/tree_plan.h"
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/scene_timeline.h"
 
 /// The passes that turn a PhysicsScene into a MuJoCo model. Each fills its part of one Build.
 namespace tenon::engines::mujoco {
@@ -119,10 +120,6 @@ void report_unmapped(Build& build);
 Result<Model> compile(Build& build);
 /// Turns what the passes noted per collider into tables per geom.
 void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces);
-/// Where a model begins: at the start of a scene, whose links of articulations have no velocities
-/// of their own (S-32), or in the middle of a run.
-enum class Begin : std::uint8_t { Start, Middle };
-
 /// qpos, qvel, controls and constant forces at time 0.
 Result<void> set_initial_state(const scene::PhysicsScene& scene, Begin begin, Model& model,
                                Diagnostics& diagnostics);

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "tenon/base/limits/engine_limits.h"
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/stiffness.h"
 #include "tenon/engines/mujoco/build/touching.h"
@@ -407,12 +408,18 @@ void report_overlaps(const scene::PhysicsScene& scene, const Model& model,
     }
   }
   std::sort(deepest.begin(), deepest.end());
-  std::pair<int, int> last{-1, -1};
+  const auto end = std::unique(deepest.begin(), deepest.end(),
+                               [](const auto& a, const auto& b) { return a.first == b.first; });
+  deepest.erase(end, deepest.end());
   for (const auto& [pair, distance] : deepest) {
-    if (pair == last) {
-      continue;
+    if (diagnostics.size() >= limits::kOverlapFindings) {
+      diagnostics.add({Severity::Warning, "collider.overlap-at-start",
+                       std::to_string(deepest.size()) +
+                           " pairs of colliders overlap at the start; no more are listed "
+                           "(kOverlapFindings)",
+                       "", "", "move the bodies apart"});
+      return;
     }
-    last = pair;
     const Path& first = scene.colliders[static_cast<std::size_t>(pair.first)].path;
     const Path& second = scene.colliders[static_cast<std::size_t>(pair.second)].path;
     char depth[32];

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace tenon::engines::mujoco {
@@ -24,6 +25,7 @@ constexpr double kLowImpedance = 0.9;  // MuJoCo's default solimp
 constexpr double kHighImpedance = 0.95;
 constexpr double kImpedanceWidth = 0.001;  // [m]
 constexpr double kStiffSteps = 0.25;       // natural frequency times time step, elastic contacts
+constexpr int kReboundSteps = 13;          // half a period of it: pi / 0.25
 constexpr double kSoftSteps = 0.16;        // the same without bounce
 constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, or the contact rings
 // Each restitution takes a bisection of a millisecond. Where there are very many, further ones are
@@ -125,8 +127,11 @@ void report_materials(Build& build) {
     if (used[i] != 0 && material.restitution > 0) {
       build.report(material.path, "physics:restitution",
                    "MuJoCo has no restitution: contacts are springs tuned to rebound with the "
-                   "restitution of the pair, within a few per cent; below about 0.3 little of the "
-                   "rebound is left");
+                   "restitution of the pair, within a few per cent, over about " +
+                       std::to_string(kReboundSteps) +
+                       " steps: what follows is late by that, and bodies that slide along each "
+                       "other meanwhile part in another direction; below about 0.3 little of the "
+                       "rebound is left");
     }
     if (used[i] != 0 && material.restitution > 0 && material.dynamic_friction > 0) {
       build.report(material.path, "physics:dynamicFriction",

@@ -10,17 +10,12 @@
 #include "tenon/base/result.h"
 #include "tenon/engines/physx/convert.h"
 #include "tenon/engines/physx/model.h"
+#include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/simulation_values.h"
 #include "tenon/scene/joint_forest.h"
 
 /// Neutral scene -> PhysX, pass by pass. Internal to the adapter.
 namespace tenon::engines::physx {
-
-/// Where a model begins.
-enum class Begin : std::uint8_t {
-  Start,   ///< at the start of a run
-  Middle,  ///< in it: the bodies' poses and velocities are those of the run
-};
 
 /// PhysX's own numbers where the asset says none.
 inline constexpr float kNoBound = 1e16F;  ///< of speeds, whose squares PhysX forms

@@ -38,8 +38,7 @@ Vec3d carried_velocity(const scene::PhysicsScene& scene, scene::Index collider,
 
 void StepEvents::clear() {
   contacts.clear();
-  broken.clear();
-  passed.clear();
+  happened = {};
 }
 
 void StepEvents::begin_scene(bool with_contacts) {
@@ -57,8 +56,8 @@ void StepEvents::onConstraintBreak(px::PxConstraintInfo* constraints, px::PxU32 
     px::PxVec3 torque(0);
     constraints[i].constraint->getForce(force, torque);
     if (const std::optional<scene::Index> index = index_of(joint->userData)) {
-      broken.push_back({*index, static_cast<double>(force.magnitude()),
-                        static_cast<double>(torque.magnitude())});
+      happened.broken.push_back({*index, static_cast<double>(force.magnitude()),
+                                 static_cast<double>(torque.magnitude())});
     }
   }
 }
@@ -140,8 +139,9 @@ void StepEvents::onTrigger(px::PxTriggerPair* pairs, px::PxU32 count) {
     const bool gone = pairs[i].flags & (px::PxTriggerPairFlag::eREMOVED_SHAPE_TRIGGER |
                                         px::PxTriggerPairFlag::eREMOVED_SHAPE_OTHER);
     if (!gone) {
-      passed.push_back({collider_of(*pairs[i].triggerShape), collider_of(*pairs[i].otherShape),
-                        pairs[i].status == px::PxPairFlag::eNOTIFY_TOUCH_FOUND});
+      happened.passages.push_back({collider_of(*pairs[i].triggerShape),
+                                   collider_of(*pairs[i].otherShape),
+                                   pairs[i].status == px::PxPairFlag::eNOTIFY_TOUCH_FOUND});
     }
   }
 }

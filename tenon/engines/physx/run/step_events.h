@@ -7,23 +7,13 @@
 #include <vector>
 
 #include "tenon/engines/physx/model.h"
+#include "tenon/engines/rebuilt_simulation.h"
 
 namespace tenon::engines::physx {
 
 /// What PhysX tells during a step: contacts, joints that broke, triggers.
 class StepEvents final : public px::PxSimulationEventCallback {
  public:
-  struct Broken {
-    scene::Index joint = 0;
-    double force = 0;   ///< [N]
-    double torque = 0;  ///< [N m]
-  };
-  struct Passed {
-    scene::Index trigger = 0;  ///< collider
-    scene::Index other = 0;    ///< collider
-    bool inside = false;
-  };
-
   StepEvents(const scene::PhysicsScene& scene, const Runtime& runtime, double time_step)
       : scene_(&scene), runtime_(&runtime), time_step_(time_step) {}
   void clear();
@@ -31,8 +21,7 @@ class StepEvents final : public px::PxSimulationEventCallback {
   void begin_scene(bool with_contacts);
 
   std::vector<Contact> contacts;
-  std::vector<Broken> broken;
-  std::vector<Passed> passed;
+  NewEvents happened;
 
   void onConstraintBreak(px::PxConstraintInfo* constraints, px::PxU32 count) override;
   void onWake(px::PxActor** /*actors*/, px::PxU32 /*count*/) override {}

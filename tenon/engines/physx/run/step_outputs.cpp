@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "tenon/engines/physx/run/drives.h"
+#include "tenon/engines/steered_simulation.h"
 
 namespace tenon::engines::physx {
 namespace {
@@ -198,25 +199,12 @@ void StepOutputs::add_joint_work(const StepMotion& step, Index j, const Steering
 }
 
 BodyAcceleration StepOutputs::body_acceleration(Index body, double time_step) const {
-  if (!has_step_ || body >= before_.bodies.size()) {
-    return {};
-  }
-  const BodyState& from = before_.bodies[body];
-  const BodyState& to = after_.bodies[body];
-  return {(to.linear_velocity - from.linear_velocity) * (1 / time_step),
-          (to.angular_velocity - from.angular_velocity) * (1 / time_step)};
+  return has_step_ ? mean_acceleration(before_.bodies, body, after_.bodies[body], time_step)
+                   : BodyAcceleration{};
 }
 
 std::vector<double> StepOutputs::joint_acceleration(Index joint, double time_step) const {
-  if (!has_step_ || joint >= before_.joints.size()) {
-    return {};
-  }
-  std::vector<double> result = after_.joints[joint].velocity;
-  const std::vector<double>& from = before_.joints[joint].velocity;
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = i < from.size() ? (result[i] - from[i]) / time_step : 0;
-  }
-  return result;
+  return mean_acceleration(before_.joints, joint, after_.joints[joint], time_step);
 }
 
 }  // namespace tenon::engines::physx
