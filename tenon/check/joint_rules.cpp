@@ -269,21 +269,35 @@ void check_rotation_length(const Subject& subject, Reporter& report) {
 }
 
 void check_parallel_joints(const Subject& subject, Reporter& report) {
+  const auto world = static_cast<Index>(subject.scene.bodies.size());
   std::map<std::pair<Index, Index>, const Joint*> first;
+  std::map<std::pair<Index, Index>, const Joint*> first_of_tree;
   for (const Joint& joint : subject.scene.joints) {
-    if (!joint.enabled || joint.exclude_from_articulation || !joint.body0 || !joint.body1) {
+    if (!joint.enabled || (!joint.body0 && !joint.body1)) {
       continue;
     }
-    const auto pair = std::minmax(*joint.body0, *joint.body1);
-    const auto added = first.emplace(std::pair(pair.first, pair.second), &joint);
-    if (!added.second) {
-      report.at(
-          prim_of(subject, joint),
-          about_bodies(
-              subject.scene, joint,
-              named(added.first->second->path, RelatedRole::Joint) +
-                  " joins the same two bodies: both hold at once, and reduced solvers skip one"),
-          "make one PhysicsJoint with a limit per axis, or exclude one from articulations");
+    const Index side0 = joint.body0.value_or(world);
+    const Index side1 = joint.body1.value_or(world);
+    const std::pair pair{std::min(side0, side1), std::max(side0, side1)};
+    const auto tell = [&](const Joint& other, const std::string& what, const std::string& advice) {
+      report.at(prim_of(subject, joint),
+                about_bodies(subject.scene, joint,
+                             named(other.path, RelatedRole::Joint) + " joins the same two " + what),
+                advice);
+    };
+    const Joint& one = *first.emplace(pair, &joint).first->second;
+    if (&one != &joint && (can_break(one) || can_break(joint))) {
+      tell(one, "sides: both hold at once, and one may take the whole load and break under it",
+           "let one joint hold both, or only one that can break");
+      continue;
+    }
+    if (joint.exclude_from_articulation || !joint.body0 || !joint.body1) {
+      continue;
+    }
+    const Joint& tied = *first_of_tree.emplace(pair, &joint).first->second;
+    if (&tied != &joint) {
+      tell(tied, "bodies: both hold at once, and reduced solvers skip one",
+           "make one PhysicsJoint with a limit per axis, or exclude one from articulations");
     }
   }
 }

@@ -113,8 +113,9 @@ Error RebuiltSimulation::unstable(const std::string& why, const Path& prim) cons
   return Error(ErrorCode::Unstable, text + why)
       .with_rule(rule("unstable"))
       .with_prim(prim.str())
-      .with_fix("start within the limits of joints, where one begins outside; else take a smaller "
-                "time step or softer drives");
+      .with_fix(
+          "start within the limits of joints, where one begins outside; else take a smaller "
+          "time step or softer drives");
 }
 
 Result<void> RebuiltSimulation::reset() {

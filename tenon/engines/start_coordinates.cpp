@@ -55,6 +55,13 @@ void report_lost_energy(const PhysicsScene& scene, const scene::FittedVelocities
                      scene.joints[loss.joint].path.str(), "",
                      "give the bodies velocities with which the joint's frames stay together"});
   }
+  for (const Index body : fitted.unused) {
+    diagnostics.add({Severity::Warning, "articulation.link-velocity",
+                     "the velocity of the link does not act: links of an articulation begin with "
+                     "the velocities of their joints",
+                     scene.bodies[body].path.str(), "",
+                     "author the velocities of the joints with PhysicsJointStateAPI"});
+  }
 }
 
 }  // namespace tenon::engines

@@ -18,7 +18,8 @@ namespace tenon::engines {
 std::vector<double> start_coordinates(const scene::PhysicsScene& scene, const scene::Joint& joint,
                                       const scene::JointDofs& dofs, Diagnostics& diagnostics);
 
-/// What joints took from the authored velocities of bodies (rule joint.velocities-apart).
+/// What joints took from the authored velocities of bodies (rule joint.velocities-apart), and links
+/// whose velocities do not act (rule articulation.link-velocity).
 void report_lost_energy(const scene::PhysicsScene& scene, const scene::FittedVelocities& fitted,
                         Diagnostics& diagnostics);
 

@@ -191,6 +191,10 @@ JOINTS = [
     ("a joint that breaks at once", elbow(more="float physics:breakForce = 0"),
      "joint.break-at-once"),
     ("a negative break force", elbow(more="float physics:breakForce = -5"), "joint.negative-break"),
+    ("two joints to the world that are to share a load", {
+        "more": WELD.replace("Weld", "Second").replace(
+            "point3f", "float physics:breakForce = 1000\n        uniform bool "
+            "physics:excludeFromArticulation = 1\n        point3f")}, "joint.parallel"),
     ("a type that does not exist", elbow(kind="PhysicsRevoluteJoints"), "stage.unknown-type"),
 ]
 DRIVES = [

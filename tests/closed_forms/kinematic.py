@@ -181,6 +181,25 @@ def turntables():
     )
 
 
+def tilted():
+    """A slab stays where it lies on a table that tilts about y through the table's middle."""
+    for degrees in (5.0, 20.0):
+        turns = {c: about("y", degrees * c / 100) for c in range(0, 101, 2)}
+        table = mover((0, 0, -0.1), turns, kind="quatd xformOp:orient")
+        turn = math.radians(degrees)
+        yield Form(
+            f"table_tilts_{degrees:g}",
+            f"a table tilts by {degrees:g} degrees in 1 s, friction 0.5",
+            timed(scene(rough(0.5), table, body("A", (0, 0, 0.05), material=ROUGH, **SLAB))),
+            1.0,
+            (
+                stands(1.0, "x", 0.15 * math.sin(turn), 0.003),
+                stands(1.0, "z", -0.1 + 0.15 * math.cos(turn), 0.003),
+                turned(1.0, "y", degrees, 0.3),
+            ),
+        )
+
+
 def belts():
     for world in (False, True):
         belt = body(
@@ -225,5 +244,5 @@ def belts():
 
 KINDS = {
     "kinematic platforms": (carried, platforms_that_speed_up),
-    "turntables, belts, movers": (turntables, belts),
+    "turntables, belts, movers": (turntables, tilted, belts),
 }

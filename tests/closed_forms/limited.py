@@ -6,7 +6,7 @@ import math
 
 import ode
 from driven import A, carriage, lever, slider, wheel
-from form import G, Form, coordinate, farthest, moved, stands, turned
+from form import G, WEIGHTLESS, Form, coordinate, farthest, moved, stands, turned
 
 from author import body, drive, joint, limit, scene
 
@@ -216,7 +216,38 @@ def limits_of_balls():
     )
 
 
+def limits_of_one_turn():
+    """One turn of a D6 joint has limits, others are free; a torque presses onto the upper one."""
+    for axis, low, high in (("rotX", -20, 35), ("rotY", -30, 30), ("rotZ", -20, 35)):
+        torque = [0.0, 0.0, 0.0]
+        torque["XYZ".index(axis[-1])] = 2.0
+        slides = [limit(each, 1, -1) for each in ("transX", "transY", "transZ")]
+        yield Form(
+            f"d6_only_{axis}",
+            f"{axis} of a D6 joint has limits, the other turns are free",
+            scene(
+                body(
+                    "A",
+                    (0, 0, 3),
+                    collides=False,
+                    mass=2.0,
+                    inertia=(0.5,) * 3,
+                    damping=1.0,
+                    apis=["PhysxForceAPI"],
+                    lines=[
+                        f"vector3f physxForce:torque = {tuple(torque)}",
+                        'uniform token physxForce:mode = "force"',
+                    ],
+                ),
+                joint("d6", "J", None, A, (0, 0, 3), parts=[*slides, limit(axis, low, high)]),
+                gravity=WEIGHTLESS,
+            ),
+            2.0,
+            (turned(2.0, axis[-1].lower(), high, 0.7),),
+        )
+
+
 KINDS = {
     "limits of slides": (slide_limits, slide_limits_pressed),
-    "limits of hinges, ropes": (turn_limits, ropes, limits_of_balls),
+    "limits of hinges, ropes": (turn_limits, ropes, limits_of_balls, limits_of_one_turn),
 }

@@ -5,6 +5,7 @@
 import dataclasses
 import itertools
 
+import carrying
 import coupled
 import driven
 import flight
@@ -16,7 +17,19 @@ import sliding
 import swinging
 import watched
 
-PARTS = (flight, sliding, impacts, swinging, limited, driven, coupled, kinematic, settings, watched)
+PARTS = (
+    flight,
+    sliding,
+    impacts,
+    swinging,
+    limited,
+    driven,
+    coupled,
+    carrying,
+    kinematic,
+    settings,
+    watched,
+)
 
 
 def kinds():

@@ -159,7 +159,7 @@ TEST(JoltKinematics, ABodyTurnsEvenlyHoweverSlowly) {
   for (int step = 1; step <= 50; ++step) {
     const double half = 0.1 * 1e-3 * step / 2;
     ASSERT_TRUE(
-        simulation->move_kinematic(body, {{}, {std::cos(half), 0, 0, std::sin(half)}}).has_value());
+        simulation->move_kinematic(body, {{}, {0, 0, std::sin(half), std::cos(half)}}).has_value());
     ASSERT_TRUE(simulation->step().has_value());
     EXPECT_NEAR(simulation->body_state(body).angular_velocity[2], 0.1, 1e-3) << step;
   }

@@ -243,8 +243,9 @@ Result<void> MujocoSimulation::watch() {
   return Error(ErrorCode::Unstable, text)
       .with_rule("mujoco.unstable")
       .with_prim(name == nullptr ? "" : name)
-      .with_fix("start within the limits of joints, where one begins outside; else take a smaller "
-                "time step or softer drives");
+      .with_fix(
+          "start within the limits of joints, where one begins outside; else take a smaller "
+          "time step or softer drives");
 }
 
 void MujocoSimulation::bring_up_to_date() const {

@@ -89,6 +89,24 @@ struct PassiveForce {
   double damping = 0;
 };
 
+/// What one joint has of a fixed tendon. Joints on its way that have no part in it have share 0.
+struct TendonPart {
+  px::PxArticulationTendonJoint* made = nullptr;
+  px::PxArticulationAxis::Enum axis = px::PxArticulationAxis::eTWIST;
+  scene::Index joint = 0;
+  double share = 0;                  ///< of its coordinate, in the sum
+  std::optional<std::size_t> above;  ///< the part on the way to where the tendon begins
+};
+
+/// A spring on the sum of coordinates of one tree.
+struct FixedTendonLaw {
+  px::PxArticulationFixedTendon* tendon = nullptr;
+  std::vector<TendonPart> parts;  ///< those above first
+  double offset = 0;              ///< added to the sum
+  double stiffness = 0;           ///< of the sum; of its bounds where it has no other
+  double damping = 0;
+};
+
 /// What pairs of colliders do to each other; PhysX asks for each new pair.
 struct PairRules {
   const scene::PhysicsScene* scene = nullptr;
@@ -111,6 +129,7 @@ struct Model {
   std::vector<ReducedTree> trees;
   std::vector<PassiveForce> passive;
   std::vector<Coupling*> couplings;  ///< `owned` has them
+  std::vector<FixedTendonLaw> tendons;
   std::vector<NotMapped> not_mapped;
   scene::JointForest forest;
   std::vector<std::pair<Pose, Pose>> joint_frames;  ///< frame0 and frame1 (joint_count)

@@ -222,6 +222,28 @@ TEST(PhysxBounds, FollowTheirSamplesInTheModelThatSteps) {
   }
 }
 
+// PhysX bounds one of the two turns across x only where the other is locked or bounded.
+TEST(PhysxBounds, OfOneTurnOfAJointWhoseOthersAreFree) {
+  for (const scene::Dof dof : {scene::Dof::RotX, scene::Dof::RotY, scene::Dof::RotZ}) {
+    TestScene scene(0);
+    const Index body = scene.add_body("body", {{0, 0, 0}}, 1, {{0.5, 0.5, 0.5}});
+    scene::Joint& joint = scene.add_joint("joint", JointKind::D6, {}, body, scene::Axis::X);
+    for (const scene::Dof slide : {scene::Dof::TransX, scene::Dof::TransY, scene::Dof::TransZ}) {
+      joint.limits.push_back({slide, 1, -1});
+    }
+    joint.limits.push_back({dof, -0.3, 0.6});
+    const auto simulation = made_of(scene);
+    EXPECT_TRUE(simulation->not_mapped().empty());
+    Wrench wrench;
+    wrench.torque[static_cast<std::size_t>(dof) % 3] = 2;
+    ASSERT_TRUE(simulation->set_body_wrench(body, wrench).has_value());
+    run(*simulation, 2);
+    const Vec3d turn = rotation_vector(simulation->body_state(body).pose.orientation);
+    EXPECT_NEAR(length(turn), 0.6, 0.02);
+    EXPECT_NEAR(turn[static_cast<std::size_t>(dof) % 3], 0.6, 0.02);
+  }
+}
+
 TEST(PhysxMimics, CoupleJointsThatNoArticulationHolds) {
   for (const bool chained : {false, true}) {
     TestScene scene(0);
@@ -282,6 +304,44 @@ TEST(PhysxMimics, OfARackTurnAWheelAndAreSoftWhereTheySaySo) {
   const double inertia = 1 / (1 / 0.1 + 16);
   EXPECT_NEAR(soft->joint_state(1).position[0] - 4 * soft->joint_state(0).position[0],
               0.5 / (400 * inertia), 0.002);
+}
+
+// A torque on either side moves I0 + k^2 I1, whatever the two moments are: beside each other, and
+// with the follower on the leader's link, where their axes are one.
+TEST(PhysxMimics, OfTreesShareATorqueByTheirInertias) {
+  for (const bool chained : {false, true}) {
+    for (const double factor : {1.0, -2.0, 0.5}) {
+      for (const Index pushed : {Index{0}, Index{1}}) {
+        TestScene scene(0);
+        const Index base = scene.add_body("base", {{0, 0, 0}}, 5, {{1, 1, 1}});
+        const Index a = scene.add_body("a", {{0, 0, 0}}, 1, {{0.05, 0.05, 0.05}});
+        const Index b = scene.add_body("b", {{0, 0, 0}}, 1, {{0.01, 0.01, 0.01}});
+        scene.add_joint("weld", JointKind::Fixed, {}, base, scene::Axis::X);
+        scene.add_joint("leader", JointKind::Revolute, base, a, scene::Axis::Y).armature = 0.02;
+        scene.add_joint("follower", JointKind::Revolute, chained ? a : base, b, scene::Axis::Y);
+        scene::Mimic mimic;
+        mimic.dof = mimic.leader_dof = scene::Dof::RotY;
+        mimic.leader = 1;
+        mimic.multiplier = factor;
+        scene.joints[2].mimics = {mimic};
+        for (scene::Joint& joint : scene.joints) {
+          joint.articulation = 0;
+        }
+        scene.articulations.push_back(
+            {named("base"), scene.joints[0].path, true, {base, a, b}, {0, 1, 2}, {}, true, {}});
+        const auto simulation = made_of(scene, {.time_step = 0.001});
+        const double torque = 0.1;
+        ASSERT_TRUE(simulation->set_joint_efforts(1 + pushed, {&torque, 1}).has_value());
+        run(*simulation, 0.5);
+        const double turns = chained ? 1 + factor : factor;
+        const double inertia = 0.05 + 0.02 + 0.01 * turns * turns;
+        const double angle = torque * (pushed == 0 ? 1 : factor) / inertia * 0.5 * 0.5 / 2;
+        EXPECT_NEAR(simulation->joint_state(1).position[0], angle, 0.02 * std::fabs(angle));
+        EXPECT_NEAR(simulation->joint_state(2).position[0], factor * angle,
+                    0.02 * std::fabs(factor * angle));
+      }
+    }
+  }
 }
 
 TEST(PhysxMimics, BetweenMoreThanTwoBodiesAreNamed) {

@@ -184,7 +184,9 @@ Result<void> EnergyBound::end(const Simulation& simulation, const PhysicsScene& 
   return Error(ErrorCode::Unstable, text)
       .with_rule(std::string(rule))
       .with_prim(scene.bodies[fastest_body(simulation, scene)].path.str())
-      .with_fix("use a smaller time step, softer drives, or start within the limits of joints");
+      .with_fix(
+          "start within the limits of joints, where one begins outside; else take a smaller "
+          "time step or softer drives");
 }
 
 void EnergyBound::list_drives(const PhysicsScene& scene) {

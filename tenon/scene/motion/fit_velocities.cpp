@@ -22,12 +22,21 @@
 namespace tenon::scene {
 namespace {
 
-constexpr double kLeastMass = 1e-9;     // [kg] of a body without mass
-constexpr double kLeastMoment = 1e-13;  // [kg m^2]
-constexpr double kNoticedLoss = 1e-4;   // of the energy
+constexpr double kLeastMass = 1e-9;      // [kg] of a body without mass
+constexpr double kLeastMoment = 1e-13;   // [kg m^2]
+constexpr double kNoticedLoss = 1e-4;    // of the energy
+constexpr double kNoticedChange = 1e-3;  // of a velocity
+constexpr double kNoSpeed = 1e-6;        // [m/s or rad/s]
 
 bool is_moving(const BodyState& state) {
   return state.linear_velocity != Vec3d{} || state.angular_velocity != Vec3d{};
+}
+
+bool is_other(const Screw& a, const Screw& b) {
+  const auto differ = [](const Vec3d& p, const Vec3d& q) {
+    return length(p - q) > kNoticedChange * length(p) + kNoSpeed;
+  };
+  return differ(a.turn, b.turn) || differ(a.move, b.move);
 }
 
 class Group {
@@ -58,6 +67,7 @@ class Group {
     }
     write(group, speeds, result);
     report_loss(group, result);
+    result.unused.insert(result.unused.end(), unused_.begin(), unused_.end());
   }
 
  private:
@@ -89,7 +99,11 @@ class Group {
     const ForestBody& link = forest_.bodies[body];
     if (link.joint && link.parent && links_ == LinkVelocities::OfJoints &&
         scene_.joints[*link.joint].articulation) {
-      wanted = wanted_[parent] + prescribed;
+      const Screw carried = wanted_[parent] + prescribed;
+      if (is_moving(state) && is_other(wanted, carried)) {
+        unused_.push_back(body);
+      }
+      wanted = carried;
     }
     wanted_.push_back(wanted);
     if (scene_.bodies[body].kinematic) {
@@ -196,6 +210,7 @@ class Group {
   std::vector<Screw> wanted_;         // (member_count)
   std::vector<Screw> base_;           // (member_count)
   std::vector<Screw> motion_;         // (member_count)
+  std::vector<Index> unused_;
   std::optional<TreeInertia> inertia_;
   bool pulled_ = false;  // by kinematic bodies that move
 };

@@ -27,6 +27,7 @@ struct FittedVelocities {
   std::vector<std::vector<double>> joints;  ///< speeds in the order of JointDofs (joint_count); of
                                             ///< a ball the angular velocity in frame 0
   std::vector<LostEnergy> losses;           ///< not of what moving kinematic bodies pull along
+  std::vector<Index> unused;                ///< links whose own velocity is not used
 };
 
 /// Whether a link of an articulation has a velocity of its own, or moves as its parent and the

@@ -299,7 +299,12 @@ TEST(FitVelocities, LinksOfArticulationsMoveAsTheirJointsSay) {
   expect_near(fitted.bodies[base].linear_velocity, {{0, 1, 0}}, 1e-12, "base");
   expect_near(fitted.bodies[link].linear_velocity, {{0, 3, 0}}, 1e-12, "link");
   EXPECT_TRUE(fitted.losses.empty());
+  EXPECT_EQ(fitted.unused, std::vector<Index>{link});
   expect_conserved(scene, fit(scene, LinkVelocities::Own), "as they are");
+  EXPECT_TRUE(fit(scene, LinkVelocities::Own).unused.empty());
+  scene.bodies[link].linear_velocity = {{0, 3, 0}};
+  scene.bodies[link].angular_velocity = {{0, 0, 2}};
+  EXPECT_TRUE(fit(scene).unused.empty());
 }
 
 TEST(FitVelocities, ABodyBetweenTwoThatDrawApartStaysFinite) {

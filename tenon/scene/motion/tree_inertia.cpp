@@ -47,13 +47,13 @@ std::vector<double> MotionTree::along_columns(std::vector<Screw> forces) const {
   return result;
 }
 
-TreeInertia::TreeInertia(const MotionTree& tree) {
-  set_up(tree);
+TreeInertia::TreeInertia(const MotionTree& tree, const std::vector<double>& armatures) {
+  set_up(tree, armatures);
   factor();
 }
 
 // The entry of two columns is the momentum that one gives to what it carries, along the other.
-void TreeInertia::set_up(const MotionTree& tree) {
+void TreeInertia::set_up(const MotionTree& tree, const std::vector<double>& armatures) {
   std::vector<RigidInertia> carried = tree.inertias;
   for (std::size_t m = tree.parents.size(); m-- > 0;) {
     if (tree.parents[m] != MotionTree::kNone) {
@@ -81,6 +81,7 @@ void TreeInertia::set_up(const MotionTree& tree) {
       for (std::size_t k = column; k != MotionTree::kNone; k = above_[k]) {
         rows_[column][depth_[k]] = dot(tree.screws[k], momentum);
       }
+      rows_[column].back() += armatures.empty() ? 0 : armatures[column];
     }
   }
 }

@@ -73,12 +73,13 @@ struct MotionTree {
 /// 2008, section 6.5).
 class TreeInertia {
  public:
-  explicit TreeInertia(const MotionTree& tree);
+  /// `armatures` (column_count, or empty) are added to what each column moves.
+  explicit TreeInertia(const MotionTree& tree, const std::vector<double>& armatures = {});
   /// Momenta become speeds; 0 for given columns and for those that move no mass. (column_count)
   void solve(std::vector<double>& values) const;
 
  private:
-  void set_up(const MotionTree& tree);
+  void set_up(const MotionTree& tree, const std::vector<double>& armatures);
   void factor();
 
   std::vector<std::size_t> above_;  // (column_count) the next free column toward the root

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "tenon/engines/physx/build/build.h"
 #include "tenon/engines/physx/run/drives.h"
@@ -23,20 +24,29 @@ using scene::Joint;
 constexpr double kMostTurn = 2 * M_PI - 1e-3;  // [rad] of the bounds about x
 constexpr double kMostSwing = M_PI - 1e-3;     // [rad]
 
-/// The axis that becomes x: of a joint with one axis that one, of a D6 the only free rotation.
+bool is_bounded(const scene::Limit& limit) {
+  return limit.lower > -scene::kUnlimited || limit.upper < scene::kUnlimited;
+}
+
+/// The axis that becomes x: of a joint with one axis that one, of a D6 the only free rotation. Of
+/// the two others PhysX cannot bound one and leave the other free: so of several rotations it is
+/// the only bounded one, or the one without bounds beside two with.
 std::size_t main_axis(const Joint& joint) {
   if (joint.kind != scene::JointKind::D6) {
     return static_cast<std::size_t>(joint.axis);
   }
-  std::size_t found = 0;
-  std::size_t count = 0;
+  std::vector<std::size_t> bounded;
+  std::vector<std::size_t> free;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!is_locked(joint, kSlotDofs[3 + axis])) {
-      found = axis;
-      ++count;
+    const Dof dof = kSlotDofs[3 + axis];
+    if (!is_locked(joint, dof)) {
+      (is_bounded(limit_of(joint, dof)) ? bounded : free).push_back(axis);
     }
   }
-  return count == 1 ? found : 0;
+  if (bounded.size() == 1) {
+    return bounded.front();
+  }
+  return free.size() == 1 ? free.front() : 0;
 }
 
 /// x, y, z of the constraint's frame are the axes main, main + 1, main + 2 of the joint's.
@@ -70,9 +80,7 @@ Limits with_spring(Limits limits, const px::PxSpring& spring) {
 struct Motions {
   std::array<scene::Limit, 6> limits;  ///< by PxD6Axis
   std::array<bool, 6> locked{};
-  bool bounded(std::size_t axis) const {
-    return limits[axis].lower > -scene::kUnlimited || limits[axis].upper < scene::kUnlimited;
-  }
+  bool bounded(std::size_t axis) const { return is_bounded(limits[axis]); }
 };
 
 Motions motions_of(const Joint& joint, std::size_t main) {
@@ -113,8 +121,7 @@ void set_twist(const Joint& joint, const Motions& motions, std::size_t main, px:
 }
 
 // A cone where bounds are alike on both sides, else a pyramid.
-void set_swing(Build& build, const Joint& joint, const Motions& motions, std::size_t main,
-               px::PxD6Joint& made) {
+void set_swing(const Joint& joint, const Motions& motions, std::size_t main, px::PxD6Joint& made) {
   const bool one = motions.bounded(4) && !motions.locked[4];
   const bool two = motions.bounded(5) && !motions.locked[5];
   if (!one && !two) {
@@ -134,9 +141,6 @@ void set_swing(Build& build, const Joint& joint, const Motions& motions, std::si
           to_px(one ? clamp(y.lower) : -kMostSwing), to_px(one ? clamp(y.upper) : kMostSwing),
           to_px(two ? clamp(z.lower) : -kMostSwing), to_px(two ? clamp(z.upper) : kMostSwing)),
       spring));
-  if (one != two && !motions.locked[one ? 5 : 4]) {
-    build.report(joint.path, "limit", "PhysX bounds the other swing at 180 degrees");
-  }
 }
 
 // Cones have their angles on the two axes across the joint's own.
@@ -210,7 +214,7 @@ px::PxJoint* make_d6(Build& build, Index index, JointMap& map) {
   set_motions(motions, *map.d6);
   set_slides(joint, motions, main, *map.d6);
   set_twist(joint, motions, main, *map.d6);
-  set_swing(build, joint, motions, main, *map.d6);
+  set_swing(joint, motions, main, *map.d6);
   if (joint.kind == scene::JointKind::Spherical) {
     set_cone(joint, *map.d6);
   }

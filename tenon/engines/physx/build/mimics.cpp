@@ -7,6 +7,7 @@
 // and it rests at 0.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tenon/engines/physx/build/tendons.h"
 #include "tenon/math/mimic_law.h"
@@ -31,27 +32,32 @@ double inertia_of(const JointMap& map) {
          map.link_joint->getArmature(map.axis);
 }
 
+/// Without a natural frequency, or with one whose spring is over within a step.
+bool is_rigid(const scene::Mimic& mimic, double time_step) {
+  return !(mimic.natural_frequency > 0) || mimic.natural_frequency * time_step > 1;
+}
+
 /// The coefficient of the follower in the tendon. With a leader's above 1, as of a hinge that turns
 /// many radians for each metre of its slide, a rigid tendon goes beyond what PhysX's floats hold. A
 /// soft one keeps 1: what PhysX makes of its stiffness is not the same at other scales.
-double scale_of(const scene::Mimic& mimic) {
-  const bool rigid = !(mimic.natural_frequency > 0);
-  return rigid ? 1 / std::max(1.0, std::fabs(mimic.multiplier)) : 1;
+double scale_of(const scene::Mimic& mimic, double time_step) {
+  return is_rigid(mimic, time_step) ? 1 / std::max(1.0, std::fabs(mimic.multiplier)) : 1;
 }
 
 void set_stiffness(const scene::Mimic& mimic, const JointMap& follower, const JointMap& leader,
-                   double count, px::PxArticulationFixedTendon& tendon) {
-  double stiffness = kRigidTendon;
-  double damping = 0;
-  if (mimic.natural_frequency > 0) {
+                   double time_step, FixedTendonLaw& law) {
+  law.stiffness = kRigidTendon * std::max({1.0, inertia_of(follower), inertia_of(leader)});
+  if (!is_rigid(mimic, time_step)) {
     const double inertia =
         1 / (1 / inertia_of(follower) + mimic.multiplier * mimic.multiplier / inertia_of(leader));
-    stiffness = inertia * mimic.natural_frequency * mimic.natural_frequency;
-    damping = 2 * mimic.damping_ratio * mimic.natural_frequency * inertia;
+    law.stiffness = inertia * mimic.natural_frequency * mimic.natural_frequency;
+    law.damping = 2 * mimic.damping_ratio * mimic.natural_frequency * inertia;
   }
-  tendon.setStiffness(to_px(stiffness * count));
-  tendon.setDamping(to_px(damping * count));
-  tendon.setLimitStiffness(0);
+  // PhysX shares a stiffness out among the joints.
+  const auto count = static_cast<double>(law.parts.size());
+  law.tendon->setStiffness(to_px(law.stiffness * count));
+  law.tendon->setDamping(to_px(law.damping * count));
+  law.tendon->setLimitStiffness(0);
 }
 
 /// Tendons are linear sums of coordinates of one articulation.
@@ -86,21 +92,20 @@ void add_mimic(Build& build, Index index, const scene::Mimic& mimic) {
     add_coupling(build, index, mimic);
     return;
   }
-  const double scale = scale_of(mimic);
-  const TendonShares shares{
-      {&follower.link_joint->getChildArticulationLink(), {scale, follower.axis}},
-      {&leader.link_joint->getChildArticulationLink(), {-mimic.multiplier * scale, leader.axis}}};
-  const auto [tendon, count] =
-      make_fixed_tendon(*build.model.trees[follower.tree].articulation, shares);
-  if (tendon == nullptr) {
+  const double scale = scale_of(mimic, build.model.time_step);
+  FixedTendonLaw law = make_fixed_tendon(
+      build, follower.tree, {{index, scale}, {mimic.leader, -mimic.multiplier * scale}});
+  if (law.tendon == nullptr) {
     build.report(path, mimic.schema,
                  "PhysX couples coordinates across joints with a coordinate of their own only");
     return;
   }
-  tendon->setOffset(to_px(-mimic.offset * scale));
-  tendon->setRestLength(0);
-  tendon->setLimitParameters(px::PxArticulationTendonLimit(-PX_MAX_F32, PX_MAX_F32));
-  set_stiffness(mimic, follower, leader, count, *tendon);
+  law.offset = -mimic.offset * scale;
+  law.tendon->setOffset(to_px(law.offset));
+  law.tendon->setRestLength(0);
+  law.tendon->setLimitParameters(px::PxArticulationTendonLimit(-PX_MAX_F32, PX_MAX_F32));
+  set_stiffness(mimic, follower, leader, build.model.time_step, law);
+  build.model.tendons.push_back(std::move(law));
 }
 
 }  // namespace

@@ -31,40 +31,52 @@ std::vector<px::PxArticulationLink*> way_up(px::PxArticulationLink* link) {
   return way;
 }
 
-std::optional<px::PxArticulationAxis::Enum> free_axis(
-    const px::PxArticulationJointReducedCoordinate& joint) {
-  for (int axis = 0; axis < px::PxArticulationAxis::eCOUNT; ++axis) {
-    const auto candidate = static_cast<px::PxArticulationAxis::Enum>(axis);
-    if (joint.getMotion(candidate) != px::PxArticulationMotion::eLOCKED) {
-      return candidate;
+/// The joint above a link, if it has a coordinate.
+std::optional<Index> coordinate_of(const Model& model, const px::PxArticulationLink* link) {
+  for (Index j = 0; j < model.joints.size(); ++j) {
+    const JointMap& map = model.joints[j];
+    if (map.role == JointRole::Reduced && !map.dofs.ball && map.dofs.free.size() == 1 &&
+        &map.link_joint->getChildArticulationLink() == link) {
+      return j;
     }
   }
   return std::nullopt;
 }
 
-/// The tendon joints from below `top` down to `link`, made where they are missing.
-using TendonJoints = std::map<px::PxArticulationLink*, px::PxArticulationTendonJoint*>;
-bool reach(px::PxArticulationFixedTendon& tendon, px::PxArticulationLink* link,
-           const TendonShares& shares, TendonJoints& made) {
+/// Makes the tendon joints from below `top` down to `link` where they are missing.
+using PartOfLink = std::map<px::PxArticulationLink*, std::size_t>;
+bool reach(const Model& model, px::PxArticulationTendonJoint* top, px::PxArticulationLink* top_link,
+           px::PxArticulationLink* link, const std::vector<TendonShare>& shares, PartOfLink& made,
+           FixedTendonLaw& law) {
   std::vector<px::PxArticulationLink*> missing;
   for (px::PxArticulationLink* at : way_up(link)) {
-    if (made.contains(at)) {
+    if (at == top_link || made.contains(at)) {
       break;
     }
     missing.push_back(at);
   }
   std::reverse(missing.begin(), missing.end());
   for (px::PxArticulationLink* at : missing) {
-    px::PxArticulationJointReducedCoordinate& joint = *at->getInboundJoint();
-    const auto share = std::find_if(shares.begin(), shares.end(),
-                                    [&](const auto& each) { return each.first == at; });
-    const auto axis = share != shares.end() ? std::optional(share->second.axis) : free_axis(joint);
-    if (!axis.has_value()) {
+    const std::optional<Index> joint = coordinate_of(model, at);
+    if (!joint) {
       return false;
     }
-    const double coefficient = share != shares.end() ? share->second.coefficient : 0;
-    made[at] = tendon.createTendonJoint(made.at(&joint.getParentArticulationLink()), *axis,
-                                        to_px(coefficient), to_px(coefficient), at);
+    TendonPart part;
+    part.joint = *joint;
+    part.axis = model.joints[*joint].axis;
+    const auto share = std::find_if(shares.begin(), shares.end(),
+                                    [&](const TendonShare& each) { return each.joint == *joint; });
+    part.share = share != shares.end() ? share->coefficient : 0;
+    const auto above = made.find(&at->getInboundJoint()->getParentArticulationLink());
+    px::PxArticulationTendonJoint* parent = top;
+    if (above != made.end()) {
+      part.above = above->second;
+      parent = law.parts[above->second].made;
+    }
+    part.made =
+        law.tendon->createTendonJoint(parent, part.axis, to_px(part.share), to_px(part.share), at);
+    made[at] = law.parts.size();
+    law.parts.push_back(part);
   }
   return true;
 }
@@ -120,6 +132,7 @@ TendonLaw law_of(Build& build, const Tendon& source, double start) {
   return law;
 }
 
+/// PhysX shares a stiffness out among `count` joints.
 void write_law(const TendonLaw& law, double count, px::PxArticulationTendon& tendon) {
   tendon.setStiffness(to_px(law.stiffness * count));
   tendon.setDamping(to_px(law.damping * count));
@@ -131,7 +144,7 @@ void leave_out(Build& build, const Tendon& tendon, const char* why) {
 }
 
 void add_fixed(Build& build, const Tendon& source) {
-  TendonShares shares;
+  std::vector<TendonShare> shares;
   std::optional<std::size_t> tree;
   double start = 0;
   for (std::size_t i = 0; i < source.joints.size(); ++i) {
@@ -144,22 +157,25 @@ void add_fixed(Build& build, const Tendon& source) {
       return;
     }
     tree = map.tree;
-    shares.push_back(
-        {&map.link_joint->getChildArticulationLink(), {source.coefficients[i], map.axis}});
+    shares.push_back({joint, source.coefficients[i]});
     Diagnostics silent;
     start += source.coefficients[i] *
              start_coordinates(build.scene, build.scene.joints[joint], map.dofs, silent).front();
   }
-  const auto [tendon, count] = make_fixed_tendon(*build.model.trees[*tree].articulation, shares);
-  if (tendon == nullptr) {
+  FixedTendonLaw made = make_fixed_tendon(build, *tree, shares);
+  if (made.tendon == nullptr) {
     leave_out(build, source, "a joint on the way of the tendon has no coordinate of its own");
     return;
   }
   const TendonLaw law = law_of(build, source, start);
-  tendon->setOffset(0);
-  tendon->setRestLength(to_px(law.rest));
-  tendon->setLimitParameters(px::PxArticulationTendonLimit(to_px(law.lower), to_px(law.upper)));
-  write_law(law, count, *tendon);
+  made.tendon->setOffset(0);
+  made.tendon->setRestLength(to_px(law.rest));
+  made.tendon->setLimitParameters(
+      px::PxArticulationTendonLimit(to_px(law.lower), to_px(law.upper)));
+  write_law(law, static_cast<double>(made.parts.size()), *made.tendon);
+  made.stiffness = law.stiffness > 0 || law.damping > 0 ? law.stiffness : law.limit_stiffness;
+  made.damping = law.damping;
+  build.model.tendons.push_back(std::move(made));
 }
 
 /// What PhysX has of a path: points of links of one articulation, and the part that the way to each
@@ -249,23 +265,29 @@ void add_spatial(Build& build, const Tendon& source) {
 
 }  // namespace
 
-FixedTendon make_fixed_tendon(px::PxArticulationReducedCoordinate& tree,
-                              const TendonShares& shares) {
+FixedTendonLaw make_fixed_tendon(Build& build, std::size_t tree,
+                                 const std::vector<TendonShare>& shares) {
+  const auto link_of = [&](const TendonShare& share) {
+    return &build.model.joints[share.joint].link_joint->getChildArticulationLink();
+  };
   px::PxArticulationLink* top = nullptr;
-  for (const auto& [link, share] : shares) {
-    px::PxArticulationLink* parent = &link->getInboundJoint()->getParentArticulationLink();
+  for (const TendonShare& share : shares) {
+    px::PxArticulationLink* parent =
+        &link_of(share)->getInboundJoint()->getParentArticulationLink();
     top = top == nullptr ? parent : common_link(top, parent);
   }
-  px::PxArticulationFixedTendon* tendon = tree.createFixedTendon();
-  TendonJoints made;
-  made[top] = tendon->createTendonJoint(nullptr, px::PxArticulationAxis::eTWIST, 0, 0, top);
-  for (const auto& [link, share] : shares) {
-    if (!reach(*tendon, link, shares, made)) {
-      tendon->release();
+  FixedTendonLaw law;
+  law.tendon = build.model.trees[tree].articulation->createFixedTendon();
+  px::PxArticulationTendonJoint* first =
+      law.tendon->createTendonJoint(nullptr, px::PxArticulationAxis::eTWIST, 0, 0, top);
+  PartOfLink made;
+  for (const TendonShare& share : shares) {
+    if (!reach(build.model, first, top, link_of(share), shares, made, law)) {
+      law.tendon->release();
       return {};
     }
   }
-  return {tendon, static_cast<double>(made.size() - 1)};
+  return law;
 }
 
 void add_tendons(Build& build) {

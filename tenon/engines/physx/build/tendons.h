@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 #include "tenon/engines/physx/build/build.h"
@@ -13,22 +13,16 @@ namespace tenon::engines::physx {
 /// [N m/rad or N/m] stiffer than any tree resolves in a step.
 inline constexpr double kRigidTendon = 1e8;
 
-/// The part that the inbound joint of a link has in a tendon.
+/// The part that a joint has in a tendon.
 struct TendonShare {
+  scene::Index joint = 0;
   double coefficient = 0;
-  px::PxArticulationAxis::Enum axis = px::PxArticulationAxis::eTWIST;
-};
-using TendonShares = std::vector<std::pair<px::PxArticulationLink*, TendonShare>>;
-
-struct FixedTendon {
-  px::PxArticulationFixedTendon* tendon = nullptr;
-  double count = 0;  ///< of its joints: PhysX shares a stiffness out among them
 };
 
-/// A tendon over the joints of some links of one tree. It goes from link to link, so that joints on
-/// its way that have no part in it get the coefficient 0. nullptr: one on the way has no
-/// coordinate.
-FixedTendon make_fixed_tendon(px::PxArticulationReducedCoordinate& tree,
-                              const TendonShares& shares);
+/// A tendon over some joints of one tree, without its numbers, and its parts. It goes from link to
+/// link, so that joints on its way that have no part in it get the coefficient 0. Without `tendon`:
+/// one on the way has no coordinate.
+FixedTendonLaw make_fixed_tendon(Build& build, std::size_t tree,
+                                 const std::vector<TendonShare>& shares);
 
 }  // namespace tenon::engines::physx

@@ -69,8 +69,9 @@ void StepInputs::before_step(const Model& model, const Steering& steering, doubl
   move_bodies(model, steering, now + model.time_step);
   push_bodies(model, steering);
   push_coordinates(model, steering);
-  if (!model.couplings.empty()) {
+  if (!model.couplings.empty() || !model.tendons.empty()) {
     read_caches(model);
+    tendons_.update(*scene_, model);
     for (Coupling* coupling : model.couplings) {
       coupling->update(model);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tenon/engines/physx/model.h"
+#include "tenon/engines/physx/run/fixed_tendons.h"
 #include "tenon/engines/steering.h"
 
 namespace tenon::engines::physx {
@@ -45,6 +46,7 @@ class StepInputs {
   const scene::PhysicsScene* scene_ = nullptr;
   std::vector<scene::Index> tracked_;  ///< joints whose drives follow samples, ascending
   std::vector<scene::Index> pushed_;
+  FixedTendons tendons_;
   std::vector<Wrench> applied_;
   std::vector<Wrench> joint_pushes_;
   bool has_pushes_ = false;  ///< something of the two lists above is not 0
