@@ -4,7 +4,8 @@
 // What came of a test of a drive, in a line: units of people, and dashes for what is not known.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { type Tested, numbersOf } from "../src/live/tested";
+import type { Tested } from "../src/live/protocol";
+import { numbersOf } from "../src/live/tested";
 
 const result = (more: Partial<Tested>): Tested => ({
   joint: "/r/j",

@@ -4,7 +4,7 @@
 // What was simulated is kept within its memory and found by time; signals and events are made of it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { ContactsNotice, LiveJoint, PlotsNotice, SceneNotice, StateNotice } from "../src/live/connection";
+import type { ContactsNotice, LiveJoint, PlotsNotice, SceneNotice, StateNotice } from "../src/live/protocol";
 import { Events } from "../src/live/events";
 import { History, Queue } from "../src/live/history";
 import { Signals, asCsv } from "../src/live/signals";

@@ -11,19 +11,15 @@
 #include <cmath>
 #include <utility>
 
+#include "tenon/live/shapes.h"
+
 namespace tenon::live {
 namespace {
 
 constexpr std::size_t kLongestText = 32 << 10;
 constexpr std::size_t kMostNumbers = 64;
 constexpr std::size_t kMostRows = 256;
-constexpr std::string_view kRequestTag = "do";
-constexpr auto kText = FieldType::Text;
 constexpr auto kObject = FieldType::Object;
-constexpr auto kList = FieldType::List;
-constexpr auto kNumber = FieldType::Number;
-constexpr auto kInteger = FieldType::Integer;
-constexpr auto kFlag = FieldType::Flag;
 
 constexpr std::array kHello{
     Field{"protocol", kInteger, true, "of these messages"},
@@ -32,26 +28,68 @@ constexpr std::array kHello{
     Field{"asset", kText, true, "the file that is shown"},
     Field{"readOnly", kFlag, true, "edits are refused"},
 };
+constexpr std::array kEngineChoice{
+    Field{"name", kText},
+    Field{"available", kFlag},
+    Field{"howToGet", kText, false},
+};
+constexpr Shape kEngineRow{"EngineChoice", kEngineChoice};
+constexpr std::array kVariantChoice{
+    Field{"prim", kPath},
+    Field{"set", kText},
+    Field{"selection", kText},
+    list("options", kEachText),
+};
+constexpr Shape kVariantRow{"VariantChoice", kVariantChoice};
+constexpr std::array kLiveDofFields{
+    Field{"dof", kText, true, "`transX` to `rotZ`"},
+    Field{"angular", kFlag},
+    Field{"lower", kNumber, false, "[rad, m]; null: no limit"},
+    Field{"upper", kNumber, false, "likewise"},
+};
+constexpr Shape kLiveDof{"LiveDof", kLiveDofFields};
+constexpr std::array kLiveDriveFields{
+    Field{"dof", kText},
+    Field{"position", kNumber, true, "its target [rad, m]"},
+    Field{"velocity", kNumber, true, "likewise [rad/s, m/s]"},
+    Field{"stiffness", kNumber, true, "[N m/rad, N/m]"},
+    Field{"damping", kNumber, true, "[N m s/rad, N s/m]"},
+    Field{"maxForce", kNumber, false, "[N m, N]; null: no limit"},
+};
+constexpr Shape kLiveDrive{"LiveDrive", kLiveDriveFields};
+constexpr std::array kLiveJointFields{
+    Field{"path", kPath},
+    Field{"kind", kText},
+    Field{"enabled", kFlag},
+    Field{"follows", kFlag, true, "another joint"},
+    Field{"leader", kPath, false, "the first joint that it follows"},
+    rows("dofs", kLiveDof),
+    Field{"position", kNumbers, true, "[rad, m]"},
+    rows("drives", kLiveDrive),
+};
+constexpr Shape kLiveJoint{"LiveJoint", kLiveJointFields};
 constexpr std::array kScene{
     Field{"revision", kInteger, true, "of scene.glb: another number is another picture"},
     Field{"why", kText, true,
           "`open`, `variant`, `engine`, `reset`, `edit`, `undo`, `redo` or `file`"},
     Field{"engine", kText, true, "that simulates, or would"},
-    Field{"engines", kList, true, "rows {`name`, `available`, `howToGet`}"},
+    rows("engines", kEngineRow, "that there are"),
     Field{"simulates", kFlag, true, "there is a model of the engine; else `problem` says why not"},
-    Field{"problem", kObject, false, "a finding"},
-    Field{"opening", kList, true, "findings that came up while the asset was opened, at most 50"},
+    object("problem", kFinding, false, "why there is no model"),
+    rows("opening", kFinding, "what came up while the asset was opened, at most 50"),
     Field{"timeStep", kNumber, false, "[s]"},
-    Field{"variants", kList, true, "rows {`prim`, `set`, `selection`, `options`}"},
-    Field{"bodies", kList, true, "paths, in the order of pose frames"},
-    Field{"joints", kList, true,
-          "rows {`path`, `kind`, `enabled`, `follows`, `leader`: the first joint that it follows, "
-          "or null, `dofs`: rows {`dof`, `angular`, `lower`, `upper`}, `position`, `drives`: rows "
-          "{`dof`, `position`, `velocity`, `stiffness`, "
-          "`damping`, `maxForce`}}"},
+    rows("variants", kVariantRow, "that can be selected"),
+    Field{"bodies", kPaths, true, "in the order of pose frames"},
+    rows("joints", kLiveJoint, "of the asset"),
     Field{"canUndo", kFlag, true, "there is an edit to take back"},
     Field{"canRedo", kFlag, true, "there is one to make again"},
 };
+constexpr std::array kEventFields{
+    Field{"time", kNumber, true, "[s]"},
+    Field{"prim", kText},
+    Field{"what", kText},
+};
+constexpr Shape kEvent{"EngineEvent", kEventFields};
 constexpr std::array kState{
     Field{"playing", kFlag, true, "time goes on"},
     Field{"time", kNumber, true, "[s] since the start"},
@@ -59,45 +97,53 @@ constexpr std::array kState{
     Field{"rate", kNumber, true, "the rate that is reached"},
     Field{"contacts", kInteger, true, "how many there are"},
     Field{"pulled", kInteger, true, "bodies being pulled"},
-    Field{"events", kList, true,
-          "what happened once since the start, the first 50: rows {`time`, `prim`, `what`}"},
-    Field{"stopped", kObject, false,
-          "a finding: the step that failed; the last poses before it stay until a reset"},
-    Field{"outdated", kObject, false,
-          "a finding: why changed files cannot be opened; what is shown is older than they are"},
+    rows("events", kEvent, "what happened once since the start, the first 50"),
+    object("stopped", kFinding, false,
+           "the step that failed; the last poses before it stay until a reset"),
+    object("outdated", kFinding, false,
+           "why changed files cannot be opened; what is shown is older than they are"),
 };
+constexpr Field kEfforts{"", kNumbers, false};
+constexpr Field kTargets = list("", kEachNumbers);
 constexpr std::array kPlots{
     Field{"time", kNumber, true, "[s]"},
-    Field{"joints", kList, true, "positions of each joint, in the order of `scene` [rad, m]"},
-    Field{"velocities", kList, true, "of each joint, likewise [rad/s, m/s]"},
-    Field{"efforts", kList, true,
-          "of each joint those of its drives [N m, N]; null where the engine does not tell"},
-    Field{"targets", kList, true,
-          "of each joint those of its drives: rows [position, velocity] in the same units"},
-    Field{"bodies", kList, true,
-          "of the first 256 bodies: linear velocity of the centre of mass [m/s], angular velocity "
-          "[rad/s], world axes, as six numbers"},
+    list("joints", kEachNumbers, "positions of each joint, in the order of `scene` [rad, m]"),
+    list("velocities", kEachNumbers, "of each joint, likewise [rad/s, m/s]"),
+    list("efforts", kEfforts,
+         "of each joint those of its drives [N m, N]; null where the engine does not tell"),
+    list("targets", kTargets,
+         "of each joint those of its drives: position and velocity in the same units"),
+    list("bodies", kEachNumbers,
+         "of the first 256 bodies: linear velocity of the centre of mass [m/s], angular velocity "
+         "[rad/s], world axes, as six numbers"),
     Field{"kinetic", kNumber, true, "[J]"},
     Field{"potential", kNumber, true, "[J]"},
 };
+constexpr std::array kContactFields{
+    Field{"collider0", kPath},
+    Field{"collider1", kPath},
+    Field{"body0", kPath, false, "null: static"},
+    Field{"body1", kPath, false, "likewise"},
+    Field{"point", kPoint, true, "[m]"},
+    Field{"normal", kPoint},
+    Field{"depth", kNumber, true, "[m]"},
+    Field{"force", kPoint, true, "on collider1 [N]"},
+};
+constexpr Shape kContact{"ContactRow", kContactFields};
 constexpr std::array kContacts{
     Field{"time", kNumber, true, "[s]"},
     Field{"count", kInteger, true, "how many there are; `rows` has the first 1,000"},
-    Field{"rows", kList, true,
-          "{`collider0`, `collider1`, `body0`, `body1` (null: static), `point`, `normal`, `depth`, "
-          "`force`: on collider1}"},
+    rows("rows", kContact, "world axes"),
 };
 constexpr std::array kProgress{
     Field{"of", kText, true, "the request"},
     Field{"what", kText, true, "is being done"},
     Field{"done", kNumber, true, "of all of it, from 0 to 1"},
 };
-constexpr std::array kTested{
+constexpr std::array kTestedFields{
     Field{"engine", kText, true, "that ran the test"},
     Field{"test", kText, true, "`snap`, `step` or `sine`"},
-    Field{"result", kObject, true,
-          "as a row of `results` of `tenon tune --test --json`, and `signal`: {`time`, `command`, "
-          "`position`, `velocity`, `effort`}, at most 500 points of each"},
+    object("result", kTested, true, "with `signal`, at most 500 points of each"),
 };
 constexpr std::array kAnswer{
     Field{"to", kText, true, "the request's name"},
@@ -107,26 +153,24 @@ constexpr std::array kAnswer{
 constexpr std::array kError{
     Field{"to", kText, true, "the request's name, as far as it could be read"},
     Field{"id", FieldType::Any, false, "the request's"},
-    Field{"error", kObject, true, "a finding"},
+    object("error", kFinding, true, "why not"),
 };
 constexpr std::array kProblem{
-    Field{"problem", kObject, true, "a finding: why a changed file is not shown, why time stopped"},
+    object("problem", kFinding, true, "why a changed file is not shown, why time stopped"),
 };
 
 constexpr std::array kNotices{
-    MessageInfo{"hello", kHello, "The first message to a page", ""},
-    MessageInfo{"scene", kScene, "What there is to see and to steer; comes again when it changes",
-                ""},
-    MessageInfo{"state", kState, "Time, when it changes, four times a second while it goes on", ""},
-    MessageInfo{"plots", kPlots, "A point of the plots, twenty times a second for who observes",
-                ""},
-    MessageInfo{"contacts", kContacts, "Where colliders touch, likewise", ""},
-    MessageInfo{"progress", kProgress, "How far a long request of this page is, ten times a second",
-                ""},
-    MessageInfo{"tested", kTested, "What came of one drive, while `testDrives` goes on", ""},
-    MessageInfo{"answer", kAnswer, "A request was done", ""},
-    MessageInfo{"error", kError, "A request was not done", ""},
-    MessageInfo{"problem", kProblem, "Something went wrong, not in a request", ""},
+    MessageInfo{"hello", kHello, "The first message to a page"},
+    MessageInfo{"scene", kScene, "What there is to see and to steer; comes again when it changes"},
+    MessageInfo{"state", kState, "Time, when it changes, four times a second while it goes on"},
+    MessageInfo{"plots", kPlots, "A point of the plots, twenty times a second for who observes"},
+    MessageInfo{"contacts", kContacts, "Where colliders touch, likewise"},
+    MessageInfo{"progress", kProgress,
+                "How far a long request of this page is, ten times a second"},
+    MessageInfo{"tested", kTestedFields, "What came of one drive, while `testDrives` goes on"},
+    MessageInfo{"answer", kAnswer, "A request was done"},
+    MessageInfo{"error", kError, "A request was not done"},
+    MessageInfo{"problem", kProblem, "Something went wrong, not in a request"},
 };
 
 Error bad_field(const MessageInfo& info, std::string_view field, std::string_view why) {
@@ -219,19 +263,20 @@ std::string fault_of(const Field& field, const Json& value) {
 /// The first fault of the rows of a field: "has a row whose `joint` is missing".
 std::string fault_of_rows(const Field& field, const Json& rows) {
   const std::string begin = "has a row whose `";
+  const std::span<const Field> fields = field.shape->fields;
   for (const Json& row : rows) {
     for (const auto& [key, value] : row.items()) {
       const auto known =
-          std::find_if(field.row.begin(), field.row.end(),
+          std::find_if(fields.begin(), fields.end(),
                        [&wanted = key](const Field& one) { return one.name == wanted; });
-      if (known == field.row.end()) {
+      if (known == fields.end()) {
         return begin + key.substr(0, 64) + "` is not known";
       }
       if (const std::string fault = fault_of(*known, value); !fault.empty()) {
         return begin + key + "` " + fault;
       }
     }
-    for (const Field& one : field.row) {
+    for (const Field& one : fields) {
       if (one.required && !row.contains(std::string(one.name))) {
         return begin + std::string(one.name) + "` is missing";
       }
@@ -268,80 +313,95 @@ Result<void> check_fields(const MessageInfo& info, const Json& message) {
   return {};
 }
 
-Json schema_of(FieldType type) {
+/// What is asked has limits; what is told has every field that may not miss.
+enum class Side : std::uint8_t { Asked, Told };
+
+Json object_schema(const Shape& shape, Side side);
+Json field_schema(const Field& field, Side side);
+
+Json list_schema(Json items, std::size_t most, Side side) {
+  Json schema = {{"type", "array"}, {"items", std::move(items)}};
+  if (side == Side::Asked) {
+    schema["maxItems"] = most;
+  }
+  return schema;
+}
+
+/// Without what null and the meaning of the field add.
+Json value_schema(const Field& field, Side side) {
   const Json number = {{"type", "number"}};
-  switch (type) {
+  const Json path = {{"type", "string"}, {"pattern", "^/"}};
+  switch (field.type) {
     case FieldType::Text:
-      return {{"type", "string"}, {"maxLength", kLongestText}};
+      return side == Side::Told ? Json{{"type", "string"}}
+                                : Json{{"type", "string"}, {"maxLength", kLongestText}};
     case FieldType::Path:
-      return {{"type", "string"}, {"pattern", "^/"}};
+      return path;
     case FieldType::Number:
-      return {{"type", "number"}};
+      return number;
     case FieldType::Integer:
-      return {{"type", "integer"}, {"minimum", 0}};
+      return side == Side::Told
+                 ? Json{{"type", "integer"}, {"minimum", 0}}
+                 : Json{{"type", "integer"}, {"minimum", 0}, {"maximum", field.most}};
     case FieldType::Flag:
       return {{"type", "boolean"}};
     case FieldType::Point:
       return {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
     case FieldType::Numbers:
-      return {{"type", "array"}, {"items", number}, {"maxItems", kMostNumbers}};
+      return list_schema(number, kMostNumbers, side);
     case FieldType::Paths:
-      return {{"type", "array"}, {"items", schema_of(FieldType::Path)}, {"maxItems", kMostRows}};
+      return list_schema(path, kMostRows, side);
     case FieldType::Rows:
-      return {{"type", "array"}, {"items", {{"type", "object"}}}, {"maxItems", kMostRows}};
+      return list_schema(object_schema(*field.shape, side), kMostRows, side);
     case FieldType::Object:
-      return {{"type", "object"}};
+      return field.shape == nullptr ? Json{{"type", "object"}} : object_schema(*field.shape, side);
     case FieldType::List:
-      return {{"type", "array"}};
+      return list_schema(field_schema(*field.item, side), 0, side);
     case FieldType::Any:
       break;
   }
   return Json::object();
 }
 
-Json row_schema(const Field& rows) {
-  Json properties = Json::object();
-  Json required = Json::array();
-  for (const Field& field : rows.row) {
-    Json schema = schema_of(field.type);
-    if (!field.required) {
-      schema["type"] = Json::array({schema["type"], "null"});
-    } else {
-      required.push_back(field.name);
-    }
-    schema["description"] = field.meaning;
-    properties[std::string(field.name)] = std::move(schema);
+Json field_schema(const Field& field, Side side) {
+  Json schema = value_schema(field, side);
+  if (!field.required && schema.contains("type")) {
+    schema["type"] = Json::array({schema["type"], "null"});
   }
-  return {{"type", "object"},
-          {"properties", std::move(properties)},
-          {"required", std::move(required)},
-          {"additionalProperties", false}};
+  if (!field.meaning.empty()) {
+    schema["description"] = field.meaning;
+  }
+  return schema;
 }
 
-Json message_schema(const MessageInfo& info, std::string_view tag) {
-  Json properties = {{std::string(tag), {{"const", info.name}}}};
-  Json required = Json::array({tag});
-  for (const Field& field : info.fields) {
-    Json schema = schema_of(field.type);
-    if (field.type == FieldType::Integer && tag == kRequestTag) {
-      schema["maximum"] = field.most;
-    }
-    if (!field.row.empty()) {
-      schema["items"] = row_schema(field);
-    }
-    if (!field.required && schema.contains("type")) {
-      schema["type"] = Json::array({schema["type"], "null"});
-    }
-    schema["description"] = field.meaning;
-    properties[std::string(field.name)] = std::move(schema);
-    if (field.required) {
+Json object_schema(const Shape& shape, Side side) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const Field& field : shape.fields) {
+    properties[std::string(field.name)] = field_schema(field, side);
+    if (side == Side::Told ? !field.may_miss : field.required) {
       required.push_back(field.name);
     }
   }
-  return {{"type", "object"},
-          {"properties", std::move(properties)},
-          {"required", std::move(required)},
-          {"additionalProperties", false}};
+  Json schema = {{"type", "object"}};
+  if (!shape.name.empty()) {
+    schema["title"] = shape.name;
+  }
+  if (!shape.verb.empty()) {
+    schema["$comment"] = "as `tenon " + std::string(shape.verb) + " --json`";
+  }
+  schema["properties"] = std::move(properties);
+  schema["required"] = std::move(required);
+  schema["additionalProperties"] = !shape.verb.empty();
+  return schema;
+}
+
+/// Of a whole message, whose kind `tag` names.
+Json message_schema(const MessageInfo& info, const char* tag, Side side) {
+  Json schema = object_schema({.fields = info.fields}, side);
+  schema["properties"][tag] = {{"const", info.name}};
+  schema["required"].push_back(tag);
+  return schema;
 }
 
 }  // namespace
@@ -351,17 +411,19 @@ std::span<const MessageInfo> notices() { return kNotices; }
 Json messages_json(std::span<const MessageInfo> requests) {
   Json asked = Json::array();
   for (const MessageInfo& info : requests) {
-    Json schema = message_schema(info, kRequestTag);
+    Json schema = message_schema(info, "do", Side::Asked);
     schema["properties"]["id"] = {{"description", "any number or text; comes back in the answer"}};
+    const Shape result = info.answer == nullptr ? Shape() : *info.answer;
     asked.push_back({{"name", info.name},
                      {"meaning", info.meaning},
-                     {"answer", info.answer},
-                     {"schema", std::move(schema)}});
+                     {"schema", std::move(schema)},
+                     {"result", object_schema(result, Side::Told)}});
   }
   Json told = Json::array();
   for (const MessageInfo& info : kNotices) {
-    told.push_back(
-        {{"name", info.name}, {"meaning", info.meaning}, {"schema", message_schema(info, "is")}});
+    told.push_back({{"name", info.name},
+                    {"meaning", info.meaning},
+                    {"schema", message_schema(info, "is", Side::Told)}});
   }
   return {{"protocol", kProtocol}, {"requests", std::move(asked)}, {"notices", std::move(told)}};
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a page and a live session say to each other, as tables: messages read are checked against
-// them, their JSON Schema is made of them, and docs/viewer.md and the tests walk them. Every
-// message is a JSON object. Numbers are SI and radians, world axes; values of properties are text
-// as layers print it.
+// them, and their JSON Schema is made of them, of which the page's types
+// (page/src/live/protocol.ts) and docs/viewer.md are made and against which tests hold what is
+// sent. Every message is a JSON object. Numbers are SI and radians, world axes; values of
+// properties are text as layers print it.
 #pragma once
 
 #include <cstdint>
@@ -33,21 +34,32 @@ enum class FieldType : std::uint8_t {
   Integer,  ///< 0 to Field::most
   Flag,
   Point,    ///< three numbers
-  Numbers,  ///< at most 64
-  Paths,    ///< at most 256, as Path
-  Rows,     ///< at most 256 objects with the fields of Field::row
-  Object,   ///< in notices alone, like the next ones
-  List,
+  Numbers,  ///< in requests at most 64, like the next ones at most 256
+  Paths,    ///< as Path
+  Rows,     ///< objects with the fields of Field::shape
+  Object,   ///< one of them; in notices and answers alone, like the next ones
+  List,     ///< of Field::item
   Any,
 };
+
+struct Shape;
 
 struct Field {
   std::string_view name;
   FieldType type = FieldType::Text;
-  bool required = true;  ///< else it may be missing or null
-  std::string_view meaning;
-  std::uint32_t most = 1'000'000;  ///< of Integer
-  std::span<const Field> row{};    ///< of Rows; without Rows themselves
+  bool required = true;  ///< else it may be null, and missing in requests
+  std::string_view meaning{};
+  std::uint32_t most = 1'000'000;  ///< of Integer, in requests
+  const Shape* shape = nullptr;    ///< of Rows, in requests without Rows itself, and Object
+  const Field* item = nullptr;     ///< of List: what each of it is
+  bool may_miss = false;           ///< of notices and answers
+};
+
+/// The fields of an object. A name is that of its type in the page's TypeScript.
+struct Shape {
+  std::string_view name{};
+  std::span<const Field> fields{};
+  std::string_view verb{};  ///< not empty: there are more, as in `tenon VERB --json`
 };
 
 /// A kind of message: a request, which says "do", or a notice, which says "is".
@@ -55,14 +67,15 @@ struct MessageInfo {
   std::string_view name;
   std::span<const Field> fields;
   std::string_view meaning;
-  std::string_view answer;  ///< of requests: what the result is
+  const Shape* answer = nullptr;  ///< of requests: the result; null: an object without fields
 };
 
 /// What a session says by itself, to those whom it concerns.
 std::span<const MessageInfo> notices();
 
-/// {"protocol", "requests": [{"name", "meaning", "answer", "schema"}], "notices": the same without
-/// "answer"}; "schema" is JSON Schema of the whole message.
+/// {"protocol", "requests": [{"name", "meaning", "schema", "result"}], "notices": the same without
+/// "result"}; "schema" is JSON Schema of the whole message, "result" that of `result` in its
+/// answer.
 Json messages_json(std::span<const MessageInfo> requests);
 
 /// A request that was understood, its fields as their types say.

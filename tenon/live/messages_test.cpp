@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/live/messages.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -100,9 +101,34 @@ TEST(Messages, HaveSchemas) {
       EXPECT_EQ(row["schema"]["additionalProperties"], false);
       const char* tag = list == std::string("requests") ? "do" : "is";
       EXPECT_EQ(row["schema"]["properties"][tag]["const"], row["name"]);
+      EXPECT_EQ(row.contains("result"), tag == std::string("do")) << row["name"];
     }
   }
   EXPECT_EQ(names.size(), requests().size() + notices().size());
+}
+
+TEST(Messages, HaveSchemasOfWhatIsInThem) {
+  const Json tables = messages_json(requests());
+  const auto row = [&](const char* list, const char* name) {
+    return *std::find_if(tables[list].begin(), tables[list].end(),
+                         [&](const Json& one) { return one["name"] == name; });
+  };
+  const Json scene = row("notices", "scene")["schema"];
+  const Json joint = scene["properties"]["joints"]["items"];
+  EXPECT_EQ(joint["title"], "LiveJoint");
+  EXPECT_EQ(joint["additionalProperties"], false);
+  EXPECT_EQ(joint["properties"]["dofs"]["items"]["properties"]["lower"]["type"],
+            Json::array({"number", "null"}));
+  EXPECT_EQ(scene["properties"]["problem"]["title"], "Finding");
+  EXPECT_EQ(scene["required"].size(), scene["properties"].size()) << "all of it, or null";
+  EXPECT_FALSE(scene["properties"]["bodies"].contains("maxItems"));
+  const Json tested = row("requests", "testDrives")["result"];
+  EXPECT_EQ(tested["properties"]["engines"]["items"]["properties"]["results"]["items"]["title"],
+            "Tested");
+  EXPECT_EQ(tested["additionalProperties"], true) << "as the verb has them";
+  const Json step = row("requests", "step");
+  EXPECT_EQ(step["schema"]["properties"]["count"]["maximum"], 1000);
+  EXPECT_EQ(step["result"]["properties"], Json::object());
 }
 
 }  // namespace

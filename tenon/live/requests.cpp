@@ -9,6 +9,7 @@
 
 #include "tenon/live/move_joint.h"
 #include "tenon/live/session_state.h"
+#include "tenon/live/shapes.h"
 #include "tenon/make_simulation.h"
 
 namespace tenon::live {
@@ -16,10 +17,6 @@ namespace {
 
 using State = Session::State;
 
-constexpr auto kPathField = FieldType::Path;
-constexpr auto kNumberField = FieldType::Number;
-constexpr auto kPointField = FieldType::Point;
-constexpr auto kTextField = FieldType::Text;
 constexpr std::uint32_t kMostSteps = 1000;
 constexpr double kLeastSpeed = 0.001;
 constexpr double kMostSpeed = 100;
@@ -218,103 +215,126 @@ Result<Json> tell_messages(State&, ClientNumber, const Asked&, Outbox&) {
 
 constexpr std::array<Field, 0> kNoFields{};
 constexpr std::array kStepFields{
-    Field{"count", FieldType::Integer, false, "how many, at most 1,000; default 1", kMostSteps}};
-constexpr std::array kSpeedFields{Field{"factor", kNumberField, true, "1 is real time"}};
+    Field{"count", kInteger, false, "how many, at most 1,000; default 1", kMostSteps}};
+constexpr std::array kSpeedFields{Field{"factor", kNumber, true, "1 is real time"}};
 constexpr std::array kDriveFields{
-    Field{"joint", kPathField, true, "the joint's prim"},
-    Field{"drive", FieldType::Integer, false, "which of its drives, default 0"},
-    Field{"position", kNumberField, false, "[rad, m]; default: unchanged"},
-    Field{"velocity", kNumberField, false, "[rad/s, m/s]; default: unchanged"}};
+    Field{"joint", kPath, true, "the joint's prim"},
+    Field{"drive", kInteger, false, "which of its drives, default 0"},
+    Field{"position", kNumber, false, "[rad, m]; default: unchanged"},
+    Field{"velocity", kNumber, false, "[rad/s, m/s]; default: unchanged"}};
 constexpr std::array kJointFields{
-    Field{"joint", kPathField, true, "the joint's prim"},
-    Field{"position", FieldType::Numbers, true, "of each of its degrees of freedom [rad, m]"}};
+    Field{"joint", kPath, true, "the joint's prim"},
+    Field{"position", kNumbers, true, "of each of its degrees of freedom [rad, m]"}};
 constexpr std::array kEffortFields{
-    Field{"joint", kPathField, true, "the joint's prim"},
-    Field{"effort", FieldType::Numbers, true, "along each of its degrees of freedom [N m, N]"}};
-constexpr std::array kForceFields{Field{"body", kPathField, true, "the body's prim"},
-                                  Field{"point", kPointField, true, "where, world axes [m]"},
-                                  Field{"force", kPointField, true, "world axes [N]"}};
+    Field{"joint", kPath, true, "the joint's prim"},
+    Field{"effort", kNumbers, true, "along each of its degrees of freedom [N m, N]"}};
+constexpr std::array kForceFields{Field{"body", kPath, true, "the body's prim"},
+                                  Field{"point", kPoint, true, "where, world axes [m]"},
+                                  Field{"force", kPoint, true, "world axes [N]"}};
 constexpr std::array kDragFields{
-    Field{"body", kPathField, true, "the body's prim"},
-    Field{"anchor", kPointField, true, "the point that is held, in the body's frame [m]"},
-    Field{"target", kPointField, true, "where it is drawn to, world axes [m]"}};
-constexpr std::array kObserveFields{Field{"contacts", FieldType::Flag, false, "as it was"},
-                                    Field{"plots", FieldType::Flag, false, "as it was"}};
-constexpr std::array kVariantFields{Field{"prim", kPathField, true, "that has the set"},
-                                    Field{"set", kTextField, true, "its name"},
-                                    Field{"variant", kTextField, true, "of the set"}};
-constexpr std::array kEngineFields{Field{"engine", kTextField, true, "its name"}};
-constexpr std::array kPrimFields{Field{"prim", kPathField, true, "any prim"}};
+    Field{"body", kPath, true, "the body's prim"},
+    Field{"anchor", kPoint, true, "the point that is held, in the body's frame [m]"},
+    Field{"target", kPoint, true, "where it is drawn to, world axes [m]"}};
+constexpr std::array kObserveFields{Field{"contacts", kFlag, false, "as it was"},
+                                    Field{"plots", kFlag, false, "as it was"}};
+constexpr std::array kVariantFields{Field{"prim", kPath, true, "that has the set"},
+                                    Field{"set", kText, true, "its name"},
+                                    Field{"variant", kText, true, "of the set"}};
+constexpr std::array kEngineFields{Field{"engine", kText, true, "its name"}};
+constexpr std::array kPrimFields{Field{"prim", kPath, true, "any prim"}};
 constexpr std::array kWhereFields{
-    Field{"object", kTextField, true, "`/prim.property`, or `/prim`"},
-    Field{"time", kNumberField, false, "time code of what counts at times"}};
+    Field{"object", kText, true, "`/prim.property`, or `/prim`"},
+    Field{"time", kNumber, false, "time code of what counts at times"}};
 constexpr std::array kExplainFields{
-    Field{"object", kTextField, true, "`/prim.property`, or `/prim`"},
-    Field{"other", kTextField, false, "another prim: whether the two collide, and why not"}};
+    Field{"object", kText, true, "`/prim.property`, or `/prim`"},
+    Field{"other", kText, false, "another prim: whether the two collide, and why not"}};
 constexpr std::array kSetFields{
-    Field{"object", kTextField, true, "`/prim.property`"},
-    Field{"value", kTextField, true, "as text layers print it; of relationships paths"},
-    Field{"engine", kTextField, false, "the file of this engine alone: physx, mujoco, newton"}};
-constexpr std::array kClearFields{Field{"object", kTextField, true, "`/prim.property`"}};
+    Field{"object", kText, true, "`/prim.property`"},
+    Field{"value", kText, true, "as text layers print it; of relationships paths"},
+    Field{"engine", kText, false, "the file of this engine alone: physx, mujoco, newton"}};
+constexpr std::array kClearFields{Field{"object", kText, true, "`/prim.property`"}};
+
+// ---- what is answered
+
+constexpr std::array kTargetFields{Field{"position", kNumber}, Field{"velocity", kNumber}};
+constexpr Shape kTarget{"", kTargetFields};
+constexpr std::array kMovedFields{Field{"position", kNumbers}};
+constexpr Shape kMoved{"", kMovedFields};
+constexpr std::array kPushedFields{Field{"effort", kNumbers}};
+constexpr Shape kPushed{"", kPushedFields};
+constexpr std::array kObservedFields{Field{"contacts", kFlag}, Field{"plots", kFlag}};
+constexpr Shape kObserved{"", kObservedFields};
+constexpr std::array kPrimRow{Field{"path", kPath}, Field{"specifier", kText}, Field{"type", kText},
+                              Field{"active", kFlag}, Field{"instance", kFlag}};
+constexpr Shape kPrim{"PrimRow", kPrimRow};
+constexpr std::array kTreeFields{rows("prims", kPrim, "depth first")};
+constexpr Shape kTree{"", kTreeFields};
+constexpr std::array kPropertyFields{
+    Field{"name", kText}, Field{"type", kText}, Field{"value", kText, false, "as layers print it"},
+    Field{"authored", kFlag}, Field{"source", kText, true, "what the value comes from"}};
+constexpr Shape kProperty{"Property", kPropertyFields};
+constexpr std::array kInspectedFields{Field{"prim", kPath}, Field{"type", kText},
+                                      list("apis", kEachText),
+                                      rows("all", kProperty, "authored ones first")};
+constexpr Shape kInspected{"Inspected", kInspectedFields, "explain"};
+constexpr std::array kOpinionFields{Field{"file", kText, false, "null: the schema"},
+                                    Field{"line", kInteger, false}, Field{"value", kText, false},
+                                    Field{"verdict", kText, true, "whether it counts"},
+                                    Field{"why", kText, false}};
+constexpr Shape kOpinion{"Opinion", kOpinionFields, "where"};
+constexpr std::array kWhereAnswer{rows("opinions", kOpinion, "the strongest one first")};
+constexpr Shape kWhere{"Where", kWhereAnswer, "where"};
+constexpr Shape kExplained{"", {}, "explain"};
+constexpr std::array kFindingsAnswer{rows("diagnostics", kFinding)};
+constexpr Shape kFindings{"", kFindingsAnswer, "check"};
+constexpr std::array kMessagesAnswer{Field{"protocol", kInteger}, list("requests", kEachAny),
+                                     list("notices", kEachAny)};
+constexpr Shape kMessages{"", kMessagesAnswer};
 
 constexpr std::array kRequests{
-    Request{{"play", kNoFields, "Lets time go on", "nothing"}, play},
-    Request{{"pause", kNoFields, "Stops it", "nothing"}, pause},
-    Request{{"step", kStepFields, "Makes some time steps and stops", "nothing"}, step_some},
-    Request{
-        {"reset", kNoFields, "Back to the start; drive targets are the asset's again", "nothing"},
-        reset},
-    Request{{"speed", kSpeedFields, "How fast time is to go on", "nothing"}, set_speed},
+    Request{{"play", kNoFields, "Lets time go on"}, play},
+    Request{{"pause", kNoFields, "Stops it"}, pause},
+    Request{{"step", kStepFields, "Makes some time steps and stops"}, step_some},
+    Request{{"reset", kNoFields, "Back to the start; drive targets are the asset's again"}, reset},
+    Request{{"speed", kSpeedFields, "How fast time is to go on"}, set_speed},
     Request{{"setDrive", kDriveFields, "Sets a drive's target, until it is set again or reset",
-             "{`position`, `velocity`}"},
+             &kTarget},
             set_drive},
     Request{{"setJoint", kJointFields,
              "Moves a joint, and those that mimic it, by hand, while the simulation is paused",
-             "{`position`}"},
+             &kMoved},
             set_joint},
     Request{{"setEffort", kEffortFields,
              "Forces or torques along a joint, on top of its drives, until they are set again or "
              "reset",
-             "{`effort`}"},
+             &kPushed},
             set_effort},
-    Request{
-        {"force", kForceFields,
-         "A force on a body until it is set again or released; one pull for each page", "nothing"},
-        push},
+    Request{{"force", kForceFields,
+             "A force on a body until it is set again or released; one pull for each page"},
+            push},
     Request{{"drag", kDragFields,
-             "A spring between a point of a body and a point in the world, for pulling by mouse",
-             "nothing"},
+             "A spring between a point of a body and a point in the world, for pulling by mouse"},
             drag},
-    Request{{"release", kNoFields, "Ends what this page pulls", "nothing"}, release},
-    Request{{"observe", kObserveFields, "Which notices this page gets while time goes on",
-             "{`contacts`, `plots`}"},
-            observe},
-    Request{{"variant", kVariantFields, "Selects a variant; no file is touched", "nothing"},
-            choose_variant},
-    Request{{"engine", kEngineFields, "Simulates on another engine, from the start", "nothing"},
-            set_engine},
-    Request{{"tree", kNoFields, "All prims", "as `tenon tree --json`: {`prims`}"}, ask_tree},
-    Request{{"inspect", kPrimFields, "All that is known of a prim",
-             "as `tenon explain --json PRIM`, and {`all`: rows {`name`, `type`, `value`, "
-             "`authored`, `source`}}"},
-            ask_inspect},
-    Request{{"where", kWhereFields, "Which files have opinions on it, and which one counts",
-             "as `tenon where --json`"},
-            ask_where},
-    Request{{"explain", kExplainFields, "Where a number comes from", "as `tenon explain --json`"},
-            ask_explain},
-    Request{{"findings", kNoFields, "What is wrong with the asset", "as `tenon check --json`"},
-            ask_findings},
+    Request{{"release", kNoFields, "Ends what this page pulls"}, release},
     Request{
-        {"set", kSetFields, "Changes a property in the file that owns it", "as `tenon set --json`"},
-        set_property},
-    Request{{"clear", kClearFields, "Removes the owning file's opinion", "as `tenon set --json`"},
-            clear_property},
-    Request{{"undo", kNoFields, "Takes the last edit back", "nothing"}, undo_edit},
-    Request{{"redo", kNoFields, "Makes it again", "nothing"}, redo_edit},
+        {"observe", kObserveFields, "Which notices this page gets while time goes on", &kObserved},
+        observe},
+    Request{{"variant", kVariantFields, "Selects a variant; no file is touched"}, choose_variant},
+    Request{{"engine", kEngineFields, "Simulates on another engine, from the start"}, set_engine},
+    Request{{"tree", kNoFields, "All prims", &kTree}, ask_tree},
+    Request{{"inspect", kPrimFields, "All that is known of a prim", &kInspected}, ask_inspect},
+    Request{
+        {"where", kWhereFields, "Which files have opinions on it, and which one counts", &kWhere},
+        ask_where},
+    Request{{"explain", kExplainFields, "Where a number comes from", &kExplained}, ask_explain},
+    Request{{"findings", kNoFields, "What is wrong with the asset", &kFindings}, ask_findings},
+    Request{{"set", kSetFields, "Changes a property in the file that owns it", &kEdited},
+            set_property},
+    Request{{"clear", kClearFields, "Removes the owning file's opinion", &kEdited}, clear_property},
+    Request{{"undo", kNoFields, "Takes the last edit back"}, undo_edit},
+    Request{{"redo", kNoFields, "Makes it again"}, redo_edit},
     // Those of panels follow (panel_requests.cpp).
-    Request{{"messages", kNoFields, "These tables", "{`protocol`, `requests`, `notices`}"},
-            tell_messages},
+    Request{{"messages", kNoFields, "These tables", &kMessages}, tell_messages},
 };
 
 }  // namespace

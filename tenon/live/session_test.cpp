@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tenon/bytes/read_record.h"
+#include "tenon/live/test_told.h"
 #include "tenon/make_simulation.h"
 
 namespace tenon::live {
@@ -123,6 +124,7 @@ class SessionTest : public ::testing::Test {
   void take(Outbox& out) {
     for (const Outbox::Message& message : out.messages) {
       const Json json = Json::parse(message.text);
+      expect_as_told(json);
       told_[json["is"].get<std::string>()] = json;
     }
     if (out.frame) {

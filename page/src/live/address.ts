@@ -6,7 +6,6 @@
 // of the server stands before # and is no part of it.
 import * as THREE from "three";
 import type { History } from "./history";
-import type { SceneNotice, StateNotice } from "./connection";
 import type { Plots } from "./plots";
 import { type Session, attempt } from "./session";
 
@@ -54,8 +53,8 @@ export class Address {
     }
     session.panel.layers.onChange = () => this.writeSoon();
     const { connection } = session;
-    connection.on<SceneNotice>("scene", (scene) => (this.timeStep = scene.timeStep));
-    connection.on<StateNotice>("state", (state) => {
+    connection.on("scene", (scene) => (this.timeStep = scene.timeStep));
+    connection.on("state", (state) => {
       this.playing = state.playing;
       void this.reach(state.time);
       state.playing || this.writeSoon();

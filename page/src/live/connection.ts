@@ -3,115 +3,20 @@
 //
 // The WebSocket to the session (docs/viewer.md). Requests are promises; notices and frames are
 // events. A connection that breaks is made again, a little later each time.
+import type { Finding, Notices, Requests } from "./protocol";
 
-export interface Finding {
-  severity: string;
-  rule: string | null;
-  message: string;
-  file: string | null;
-  line: number | null;
-  prim: string | null;
-  property: string | null;
-  fix: string | null;
-  /** Of findings of a check: what `fix` of the session writes, and what it writes only when asked. */
-  autofix?: string | null;
-  suggestedFix?: string | null;
-}
+export type RequestName = keyof Requests;
+export type Fields<Name extends RequestName> = Requests[Name]["fields"];
+export type Answer<Name extends RequestName> = Requests[Name]["answer"];
+/** Requests that may come without fields. */
+export type BareRequest = { [Name in RequestName]: {} extends Fields<Name> ? Name : never }[RequestName];
 
-export interface LiveDof {
-  dof: string;
-  angular: boolean;
-  lower: number | null;
-  upper: number | null;
-}
-
-export interface LiveDrive {
-  dof: string;
-  position: number;
-  velocity: number;
-  stiffness: number;
-  damping: number;
-  maxForce: number | null;
-}
-
-export interface LiveJoint {
-  path: string;
-  kind: string;
-  enabled: boolean;
-  follows: boolean;
-  /** The joint that it follows. */
-  leader: string | null;
-  dofs: LiveDof[];
-  position: number[];
-  drives: LiveDrive[];
-}
-
-export interface SceneNotice {
-  revision: number;
-  why: string;
-  engine: string;
-  engines: { name: string; available: boolean; howToGet: string | null }[];
-  simulates: boolean;
-  problem: Finding | null;
-  opening: Finding[];
-  timeStep: number | null;
-  variants: { prim: string; set: string; selection: string; options: string[] }[];
-  bodies: string[];
-  joints: LiveJoint[];
-  canUndo: boolean;
-  canRedo: boolean;
-}
-
-export interface StateNotice {
-  playing: boolean;
-  time: number;
-  speed: number;
-  rate: number;
-  contacts: number;
-  pulled: number;
-  events: { time: number; prim: string; what: string }[];
-  /** The step that failed; poses stay until a reset. */
-  stopped: Finding | null;
-  /** Why changed files cannot be opened: what is shown is older than they are. */
-  outdated: Finding | null;
-}
-
-export interface PlotsNotice {
-  time: number;
-  joints: number[][];
-  velocities: number[][];
-  /** Of each joint those of its drives; null: the engine does not tell. */
-  efforts: (number[] | null)[];
-  /** Of each drive of each joint position and velocity. */
-  targets: [number, number][][];
-  /** Linear and angular velocity of the first bodies. */
-  bodies: number[][];
-  kinetic: number;
-  potential: number;
-}
-
-export interface ContactRow {
-  collider0: string;
-  collider1: string;
-  body0: string | null;
-  body1: string | null;
-  point: [number, number, number];
-  normal: [number, number, number];
-  depth: number;
-  force: [number, number, number];
-}
-
-export interface ContactsNotice {
-  time: number;
-  count: number;
-  rows: ContactRow[];
-}
-
-export interface HelloNotice {
-  protocol: number;
-  version: string;
-  asset: string;
-  readOnly: boolean;
+/** What can be heard: notices, frames, which requests are sent, and how the connection is. */
+interface Heard extends Notices {
+  frame: Float32Array;
+  asking: RequestName;
+  open: null;
+  closed: null;
 }
 
 /** What a request that was refused says. */
@@ -141,22 +46,24 @@ export class Connection extends EventTarget {
   }
 
   /** The result of a request. Rejects with Refusal, or where the connection breaks. */
-  ask<T = unknown>(name: string, fields: Record<string, unknown> = {}): Promise<T> {
-    return new Promise<T>((resolve, reject) => {
+  ask<Name extends BareRequest>(name: Name): Promise<Answer<Name>>;
+  ask<Name extends RequestName>(name: Name, fields: Fields<Name>): Promise<Answer<Name>>;
+  ask(name: RequestName, fields: object = {}): Promise<unknown> {
+    return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) {
         reject(new Error("tenon view is not there; it is tried again"));
         return;
       }
       const id = ++this.number;
       this.tell("asking", name);
-      this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject });
+      this.waiting.set(id, { resolve, reject });
       this.socket.send(JSON.stringify({ do: name, id, ...fields }));
     });
   }
 
   /** Hears notices of one name. */
-  on<T>(name: string, hear: (notice: T) => void): void {
-    this.addEventListener(name, (event) => hear((event as CustomEvent<T>).detail));
+  on<Name extends keyof Heard>(name: Name, hear: (notice: Heard[Name]) => void): void {
+    this.addEventListener(name, (event) => hear((event as CustomEvent<Heard[Name]>).detail));
   }
 
   private connect(): void {
@@ -180,7 +87,7 @@ export class Connection extends EventTarget {
     this.socket = socket;
   }
 
-  private tell(name: string, detail: unknown): void {
+  private tell<Name extends keyof Heard>(name: Name, detail: Heard[Name]): void {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
@@ -189,15 +96,14 @@ export class Connection extends EventTarget {
       this.tell("frame", new Float32Array(data));
       return;
     }
-    const notice = JSON.parse(data) as { is: string; id?: number; result?: unknown; error?: Finding };
-    const waiting = this.waiting.get(notice.id ?? 0);
-    this.waiting.delete(notice.id ?? 0);
-    if (notice.is === "answer") {
-      waiting?.resolve(notice.result);
-    } else if (notice.is === "error") {
-      waiting?.reject(new Refusal(notice.error!));
-    } else {
+    const notice = JSON.parse(data) as Notices[keyof Notices];
+    if (notice.is !== "answer" && notice.is !== "error") {
       this.tell(notice.is, notice);
+      return;
     }
+    const id = notice.id as number;
+    const waiting = this.waiting.get(id);
+    this.waiting.delete(id);
+    notice.is === "answer" ? waiting?.resolve(notice.result) : waiting?.reject(new Refusal(notice.error));
   }
 }

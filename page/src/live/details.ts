@@ -4,37 +4,8 @@
 // All properties of the selected prim: who says what and why it counts, and edits, whose effect is
 // told where they were made.
 import { figure, h, table } from "../panel/dom";
-import type { HelloNotice, SceneNotice, StateNotice } from "./connection";
+import type { Edited, Property } from "./protocol";
 import { type Session, attempt } from "./session";
-
-interface Property {
-  name: string;
-  type: string;
-  value: string | null;
-  authored: boolean;
-  source: string;
-}
-
-interface Opinion {
-  file: string | null;
-  line: number | null;
-  value: string | null;
-  verdict: string;
-  why: string | null;
-}
-
-interface Difference {
-  path: string;
-  what: string;
-  before: unknown;
-  after: unknown;
-  unit: string | null;
-}
-
-interface Edited {
-  edits: { before: string | null; after: string | null; file: string; line: number | null; why: string }[];
-  physics: { variant: string | null; differences: Difference[] }[];
-}
 
 function plain(value: unknown): string {
   if (typeof value === "number") {
@@ -54,13 +25,13 @@ export class Details {
   private effect: { object: string; text: HTMLElement } | null = null;
 
   constructor(private readonly session: Session) {
-    session.connection.on<HelloNotice>("hello", (notice) => {
+    session.connection.on("hello", (notice) => {
       this.readOnly = notice.readOnly;
     });
-    session.connection.on<StateNotice>("state", (notice) => {
+    session.connection.on("state", (notice) => {
       this.time = notice.time;
     });
-    session.connection.on<SceneNotice>("scene", ({ why }) => {
+    session.connection.on("scene", ({ why }) => {
       if (why === "undo" || why === "redo") {
         session.messages.say(why === "undo" ? "The last edit was taken back." : "The edit was made again.");
       }
@@ -79,7 +50,7 @@ export class Details {
 
   private async properties(prim: string): Promise<Node | null> {
     const answer = await this.session.connection
-      .ask<{ type: string; apis: string[]; all: Property[] }>("inspect", { prim })
+      .ask("inspect", { prim })
       .catch(() => null);
     if (!answer) {
       return null;
@@ -135,7 +106,7 @@ export class Details {
   }
 
   private async open(object: string, property: Property, place: HTMLElement): Promise<void> {
-    const answer = await attempt<{ opinions: Opinion[] }>(this.session, "where", { object });
+    const answer = await attempt(this.session, "where", { object });
     const opinions = answer?.opinions ?? [];
     place.replaceChildren(
       table(
@@ -165,26 +136,23 @@ export class Details {
         class: "editor",
         onsubmit: (event: SubmitEvent) => {
           event.preventDefault();
-          void this.edit("set", object, { value: input.value });
+          void this.tell(object, attempt(this.session, "set", { object, value: input.value }));
         },
       },
       input,
       h("button", { type: "submit" }, "Set"),
       h(
         "button",
-        { type: "button", onclick: () => void this.edit("clear", object, {}) },
+        { type: "button", onclick: () => void this.tell(object, attempt(this.session, "clear", { object })) },
         "Clear",
       ),
     );
   }
 
-  private async edit(
-    name: string,
-    object: string,
-    fields: Record<string, unknown>,
-  ): Promise<void> {
+  /** What an edit did, once it is made. */
+  private async tell(object: string, edit: Promise<Edited | null>): Promise<void> {
     const hadPassed = this.time > 0;
-    const edited = await attempt<Edited>(this.session, name, { object, ...fields });
+    const edited = await edit;
     const place = edited?.edits[0];
     if (!edited || !place) {
       return;
@@ -195,7 +163,10 @@ export class Details {
     const differences = edited.physics.flatMap((effect) => effect.differences);
     const rows = differences
       .slice(0, 20)
-      .map((one) => `${one.path} ${one.what}: ${plain(one.before)} -> ${plain(one.after)} ${one.unit ?? ""}`);
+      .map((one) =>
+        one.what === null
+          ? `${one.path} ${one.change}`
+          : `${one.path} ${one.what}: ${plain(one.before)} -> ${plain(one.after)} ${one.unit ?? ""}`);
     this.effect = {
       object,
       text: h(

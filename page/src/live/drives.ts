@@ -5,36 +5,19 @@
 import { figure, h, nameOf } from "../panel/dom";
 import { pathButton } from "../panel/joints";
 import { restWhileClosed, whenOpen, writer } from "./pages";
+import type { DriveDemand, DriveLimits } from "./protocol";
 import { review } from "./review";
 import type { Session } from "./session";
 import { Task } from "./task";
 
-interface Drive {
-  joint: string;
-  dof: string;
-  maxEffort: number | null;
-  speedLimit: number | null;
-  weight: number | null;
-  inertia: [number | null, number | null];
-  tooWeak: boolean;
-  followers: string[];
-}
-
-interface Limits {
-  joint: string;
-  dof: string;
-  maxEffort?: number;
-  speedLimit?: number;
-}
-
 const degrees = 180 / Math.PI;
 
 export class Drives {
-  private readonly task: Task;
+  private readonly task: Task<"drives">;
   private readonly postures: HTMLInputElement;
   private readonly place = h("div");
   private readonly save: HTMLButtonElement;
-  private readonly changes = new Map<string, Limits>();
+  private readonly changes = new Map<string, DriveLimits>();
 
   constructor(private readonly session: Session) {
     this.task = new Task(session, "drives");
@@ -55,7 +38,7 @@ export class Drives {
 
   private async look(): Promise<void> {
     const postures = Math.min(Math.max(Math.round(Number(this.postures.value)) || 0, 0), 10000);
-    const answer = await this.task.run<{ postures: number; drives: Drive[] }>({ postures });
+    const answer = await this.task.run({ postures });
     if (answer) {
       this.changes.clear();
       this.save.disabled = true;
@@ -71,7 +54,7 @@ export class Drives {
     }
   }
 
-  private row(drive: Drive): HTMLElement {
+  private row(drive: DriveDemand): HTMLElement {
     const turns = drive.dof.startsWith("rot");
     const unit = turns ? "N m" : "N";
     const [least, most] = drive.inertia.map((one) => figure(one, 3));
@@ -92,7 +75,7 @@ export class Drives {
     );
   }
 
-  private field(drive: Drive, what: "maxEffort" | "speedLimit", value: number | null, factor: number, unit: string): HTMLElement {
+  private field(drive: DriveDemand, what: "maxEffort" | "speedLimit", value: number | null, factor: number, unit: string): HTMLElement {
     const { joint, dof } = drive;
     const key = `${joint} ${dof}`;
     const name = what === "maxEffort" ? "Most effort" : "Most speed";
@@ -105,7 +88,7 @@ export class Drives {
       "aria-label": `${name} of ${nameOf(joint)} in ${unit}`,
       onchange: () => {
         const wanted = Number(field.value) / factor;
-        const limits: Limits = this.changes.get(key) ?? { joint, dof };
+        const limits: DriveLimits = this.changes.get(key) ?? { joint, dof };
         delete limits[what];
         if (field.value !== "" && Number.isFinite(wanted)) {
           limits[what] = wanted;

@@ -5,7 +5,7 @@
 // moment that is shown.
 import { figure, h, nameOf, table } from "../panel/dom";
 import { pathButton } from "../panel/joints";
-import type { ContactsNotice } from "./connection";
+import type { ContactsNotice } from "./protocol";
 import type { EventKind, Events, RunEvent } from "./events";
 import type { Session } from "./session";
 import type { Timeline } from "./timeline";
@@ -51,7 +51,7 @@ export class EventList {
       this.contacts,
     );
     events.addEventListener("change", () => this.updateSoon());
-    session.connection.on<ContactsNotice>("contacts", (notice) => {
+    session.connection.on("contacts", (notice) => {
       this.newest = notice;
       this.updateSoon();
     });

@@ -5,7 +5,7 @@
 // effort, what the engine tells (a joint that breaks), and a simulation that fails. Contacts and
 // joints are looked at twenty times a second; what is shorter may be missed.
 import { nameOf } from "../panel/dom";
-import type { ContactsNotice, PlotsNotice, SceneNotice, StateNotice } from "./connection";
+import type { ContactsNotice, PlotsNotice, SceneNotice, StateNotice } from "./protocol";
 
 export type EventKind = "contact" | "limit" | "saturation" | "engine" | "failure";
 

@@ -4,8 +4,9 @@
 // What tenon check finds, asked for when the asset was opened or has changed. Findings of one rule
 // stand together; a finding selects its prim, and its place can be copied.
 import { h, nameOf } from "../panel/dom";
-import type { Finding, HelloNotice, SceneNotice } from "./connection";
+import type { Fields } from "./connection";
 import { restWhileClosed, writer } from "./pages";
+import type { Finding } from "./protocol";
 import { review } from "./review";
 import { type Session, attempt } from "./session";
 import { grouped } from "./signals";
@@ -45,11 +46,11 @@ export class Findings {
     });
     this.correctAll = writer(session, "Correct all...", () => void this.correct({}));
     this.correctAll.disabled = true;
-    session.connection.on<HelloNotice>("hello", (notice) => (this.readOnly = notice.readOnly));
+    session.connection.on("hello", (notice) => (this.readOnly = notice.readOnly));
     this.page.append(look, " ", this.correctAll, this.filter, this.list);
     restWhileClosed(session, this.page);
     let changed = false;
-    session.connection.on<SceneNotice>("scene", (scene) => {
+    session.connection.on("scene", (scene) => {
       if (scene.why !== "reset" && scene.why !== "engine") {
         this.show(scene.opening, "While it was opened:");
         changed = true;
@@ -66,7 +67,7 @@ export class Findings {
   private async look(): Promise<void> {
     const number = ++this.asked;
     this.list.replaceChildren(h("p", { role: "status" }, "Looking..."));
-    const answer = await attempt<{ diagnostics: Finding[] }>(this.session, "findings");
+    const answer = await attempt(this.session, "findings");
     if (number !== this.asked) {
       return; // another check has begun
     }
@@ -83,7 +84,7 @@ export class Findings {
   }
 
   /** Corrects what has a safe fix; of one finding also what is only suggested. */
-  private async correct(fields: Record<string, unknown>): Promise<void> {
+  private async correct(fields: Fields<"fix">): Promise<void> {
     await review(this.session, "fix", fields);
   }
 

@@ -6,36 +6,14 @@
 // simulation, one drive after the other, and draw command and response of each.
 import { figure, h, nameOf } from "../panel/dom";
 import { pathButton } from "../panel/joints";
+import type { Fields } from "./connection";
 import { Slider } from "./move";
 import { restWhileClosed, whenOpen, writer } from "./pages";
+import type { TunedDrive } from "./protocol";
 import { review } from "./review";
 import { type Session, attempt } from "./session";
 import { Task } from "./task";
-import { type Tested, TestedDrives } from "./tested";
-
-/** Numbers of a drive, SI. */
-interface Numbers {
-  stiffness: number;
-  damping: number;
-  frequency: number | null;
-  frequencyHz: number | null;
-  dampingRatio: number | null;
-  regime: string | null;
-}
-
-interface Drive extends Numbers {
-  joint: string;
-  axis: string;
-  type: string | null;
-  whyNot: string | null;
-  to: Numbers | null;
-  notes: string[];
-}
-
-/** What a drive is after a slider has set it. */
-interface Set extends Numbers {
-  stableUpTo: number | null;
-}
+import { TestedDrives } from "./tested";
 
 const cycle = 2 * Math.PI;
 const hertz = { unit: "Hz", factor: 1 / cycle };
@@ -43,14 +21,14 @@ const plain = { unit: "", factor: 1 };
 const mostSliders = 12;
 
 interface Row {
-  drive: Drive;
+  drive: TunedDrive;
   cells: HTMLElement[];
   note: HTMLElement;
   box: HTMLInputElement;
 }
 
 export class Gains {
-  private readonly task: Task;
+  private readonly task: Task<"testDrives">;
   private readonly place = h("div");
   private readonly sliders = h("div");
   private readonly save: HTMLButtonElement;
@@ -97,7 +75,7 @@ export class Gains {
   }
 
   private async load(): Promise<void> {
-    const answer = await attempt<{ drives: Drive[] }>(this.session, "gains");
+    const answer = await attempt(this.session, "gains");
     if (!answer) {
       return;
     }
@@ -120,7 +98,7 @@ export class Gains {
     this.update();
   }
 
-  private row(drive: Drive): Row {
+  private row(drive: TunedDrive): Row {
     const box: HTMLInputElement = h("input", {
       type: "checkbox",
       disabled: drive.whyNot !== null,
@@ -179,8 +157,8 @@ export class Gains {
     const { joint, axis: dof } = drive;
     const warning = h("p", { class: "weak", role: "status" });
     const sliders: Slider[] = [];
-    const send = (field: "frequency" | "dampingRatio") => async (value: number) => {
-      const set = await attempt<Set>(this.session, "setGains", { joint, dof, [field]: value });
+    const send = (field: keyof Fields<"setGains">) => async (value: number) => {
+      const set = await attempt(this.session, "setGains", { joint, dof, [field]: value });
       if (set) {
         drive.to = set;
         this.show(row);
@@ -218,7 +196,7 @@ export class Gains {
     const test = this.kind.value;
     const more = test === "snap" ? {} : { period: Number(this.period.value), amplitude: Number(this.amplitude.value) / 100 };
     this.tested.clear();
-    const answer = await this.task.run<{ interrupted: boolean; engines: { results: Tested[] }[] }>({
+    const answer = await this.task.run({
       test,
       joints: [...new Set(joints)].slice(0, 256),
       ...more,

@@ -4,7 +4,7 @@
 // What was simulated since the start: poses as they came (60 in a second), and samples of joints,
 // bodies, energy and contacts (20 in a second). Both are kept until together they need more memory
 // than they may have; the oldest ones go first. `shown` is the moment that the page shows.
-import type { ContactsNotice, PlotsNotice, SceneNotice } from "./connection";
+import type { ContactsNotice, PlotsNotice, SceneNotice } from "./protocol";
 
 /** Where the values of a sample lie in its array. */
 export class Layout {

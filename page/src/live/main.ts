@@ -8,15 +8,7 @@ import { nameOf } from "../panel/dom";
 import { Panel } from "../panel/panel";
 import { Viewer } from "../scene/viewer";
 import { Address } from "./address";
-import {
-  Connection,
-  type ContactsNotice,
-  type Finding,
-  type HelloNotice,
-  type PlotsNotice,
-  type SceneNotice,
-  type StateNotice,
-} from "./connection";
+import { Connection } from "./connection";
 import { Details } from "./details";
 import { Drives } from "./drives";
 import { EventList } from "./event_list";
@@ -97,7 +89,7 @@ function addTime(session: Session): History {
   new Address(session, history, plots);
   const { connection, panel } = session;
   let known = "";
-  connection.on<SceneNotice>("scene", (scene) => {
+  connection.on("scene", (scene) => {
     // A page that has only lost its connection keeps what it knows.
     const now = JSON.stringify([scene.revision, scene.engine, scene.bodies.length, scene.joints.length]);
     if (scene.why !== "open" || now !== known) {
@@ -109,19 +101,19 @@ function addTime(session: Session): History {
     }
     known = now;
   });
-  connection.on<Float32Array>("frame", (frame) => history.addFrame(frame));
-  connection.on<PlotsNotice>("plots", (notice) => {
+  connection.on("frame", (frame) => history.addFrame(frame));
+  connection.on("plots", (notice) => {
     history.addPlots(notice);
     events.hearPlots(notice);
   });
-  connection.on<ContactsNotice>("contacts", (notice) => {
+  connection.on("contacts", (notice) => {
     history.addContacts(notice);
     events.hearContacts(notice);
     if (history.shown === null) {
       panel.viewer.overlays.setContacts(history.sample?.contacts ?? new Float32Array());
     }
   });
-  connection.on<StateNotice>("state", (state) => events.hearState(state));
+  connection.on("state", (state) => events.hearState(state));
   return history;
 }
 
@@ -149,8 +141,8 @@ function main(): void {
   panel.layers.offer("contacts");
   panel.openTab("Move");
   panel.viewer.addEventListener("select", () => panel.viewer.selected && panel.openTab("Selection"));
-  connection.on<HelloNotice>("hello", (notice) => panel.setTitle(nameOf(notice.asset)));
-  connection.on<SceneNotice>("scene", (scene) => {
+  connection.on("hello", (notice) => panel.setTitle(nameOf(notice.asset)));
+  connection.on("scene", (scene) => {
     picture.want(scene.revision).catch((fault: unknown) => messages.complain(fault));
     if (scene.why === "file") {
       messages.say("A file has changed: opened again.");
@@ -160,7 +152,7 @@ function main(): void {
       messages.complain(wrong);
     }
   });
-  connection.on<{ problem: Finding }>("problem", (notice) => messages.complain(notice.problem));
+  connection.on("problem", (notice) => messages.complain(notice.problem));
   connection.on("closed", () =>
     messages.complain(
       "tenon view does not answer; it is tried again. One that was started anew has another address.",

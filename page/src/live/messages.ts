@@ -3,7 +3,7 @@
 //
 // What the page has to say to people: one line below the picture that screen readers read out.
 import { h } from "../panel/dom";
-import type { Finding } from "./connection";
+import type { Finding } from "./protocol";
 
 /** A finding in one line: file and line, what is wrong, of which prim, and what to do. */
 export function textOf(finding: Partial<Finding>): string {

@@ -7,7 +7,8 @@
 // and the newest value follows it.
 import { h } from "../panel/dom";
 import { pathButton } from "../panel/joints";
-import type { LiveDof, LiveJoint, PlotsNotice, SceneNotice } from "./connection";
+import type { Fields } from "./connection";
+import type { LiveDof, LiveJoint, PlotsNotice, SceneNotice } from "./protocol";
 import { type Session, attempt } from "./session";
 
 const degrees = 180 / Math.PI;
@@ -147,8 +148,8 @@ export class Move {
 
   constructor(private readonly session: Session) {
     this.page = session.panel.addTab("Move");
-    session.connection.on<SceneNotice>("scene", (scene) => this.build(scene));
-    session.connection.on<PlotsNotice>("plots", (plots) => this.follow(plots));
+    session.connection.on("scene", (scene) => this.build(scene));
+    session.connection.on("plots", (plots) => this.follow(plots));
     session.connection.on("closed", () =>
       this.page.querySelectorAll("input").forEach((input) => (input.disabled = true)),
     );
@@ -205,7 +206,7 @@ export class Move {
     const drive = joint.drives[k]!;
     const dof = joint.dofs.find((one) => one.dof === drive.dof);
     const rows: HTMLElement[] = [];
-    const set = (field: "position" | "velocity") => (value: number) =>
+    const set = (field: keyof Fields<"setDrive">) => (value: number) =>
       attempt(this.session, "setDrive", { joint: joint.path, drive: k, [field]: value });
     if (dof && drive.stiffness > 0) {
       const slider = this.slider(dof, "position", "drive to", drive.position, false, set("position"));

@@ -4,7 +4,6 @@
 // What tabs with tables of the asset have in common: they ask when somebody opens them, and again
 // when the asset has changed meanwhile; what writes is there where files may be edited.
 import { h } from "../panel/dom";
-import type { HelloNotice, SceneNotice } from "./connection";
 import type { Session } from "./session";
 
 /** Calls `load` when the tab is open and its table is older than the asset. */
@@ -17,7 +16,7 @@ export function whenOpen(session: Session, name: string, load: (why: string) => 
       load(of);
     }
   };
-  session.connection.on<SceneNotice>("scene", (scene) => {
+  session.connection.on("scene", (scene) => {
     why = scene.why === "reset" ? why : scene.why;
     look();
   });
@@ -27,7 +26,7 @@ export function whenOpen(session: Session, name: string, load: (why: string) => 
 /** A button that writes: only where files may be edited. */
 export function writer(session: Session, text: string, act: () => void): HTMLButtonElement {
   const button = h("button", { type: "button", onclick: act }, text);
-  session.connection.on<HelloNotice>("hello", ({ readOnly }) => (button.hidden = readOnly));
+  session.connection.on("hello", ({ readOnly }) => (button.hidden = readOnly));
   return button;
 }
 

@@ -5,48 +5,29 @@
 // bodies; a tick keeps them apart once it is saved.
 import { figure, h, nameOf } from "../panel/dom";
 import { restWhileClosed, whenOpen, writer } from "./pages";
+import type { FoundPair, FoundPairs, PairFilter } from "./protocol";
 import { review } from "./review";
 import type { Session } from "./session";
 import { Task } from "./task";
 
-interface Pair {
-  bodyA: string;
-  bodyB: string;
-  adjacent: boolean;
-  startDepth: number | null;
-  share: number | null;
-  class: string | null;
-  depth: number | null;
-  filtered: string;
-  filters: { why: string; property: string | null }[];
-  overFiltered: boolean;
-}
-
-interface Found {
-  postures: number;
-  never: number;
-  pairCount: number;
-  pairs: Pair[];
-}
-
 const mostRows = 500;
 const mostChanges = 256; // of one request
 /** Why two bodies are kept apart, in few words. */
-const reasonOf = ({ why, property }: Pair["filters"][number]): string =>
+const reasonOf = ({ why, property }: PairFilter): string =>
   property === "physics:filteredPairs" ? "filtered pair" : property === "physics:collisionEnabled" ? "kept apart by a joint" : why;
 const millimetres = (depth: number | null): string => (depth === null ? "-" : figure(depth * 1000, 3));
 
 export class Pairs {
-  private readonly task: Task;
+  private readonly task: Task<"pairs">;
   private readonly postures: HTMLInputElement;
   private readonly environment = h("input", { type: "checkbox" });
   private readonly all = h("input", { type: "checkbox" });
   private readonly filter: HTMLInputElement;
   private readonly place = h("div");
   private readonly save: HTMLButtonElement;
-  private found: Found | null = null;
+  private found: FoundPairs | null = null;
   /** Ticks that differ from what the asset says. */
-  private readonly ticks = new Map<Pair, boolean>();
+  private readonly ticks = new Map<FoundPair, boolean>();
 
   constructor(private readonly session: Session) {
     this.task = new Task(session, "pairs");
@@ -79,7 +60,7 @@ export class Pairs {
   }
 
   private async look(): Promise<void> {
-    const answer = await this.task.run<Found>({
+    const answer = await this.task.run({
       postures: Math.min(Math.max(Math.round(Number(this.postures.value)) || 0, 0), 10000),
       environment: this.environment.checked,
       all: this.all.checked,
@@ -114,11 +95,11 @@ export class Pairs {
   }
 
   /** A filtered pair of the asset, which can be taken away; what joints and groups filter cannot. */
-  private isOwn(pair: Pair): boolean {
+  private isOwn(pair: FoundPair): boolean {
     return pair.filters.some((one) => one.property === "physics:filteredPairs");
   }
 
-  private row(pair: Pair): HTMLElement {
+  private row(pair: FoundPair): HTMLElement {
     const { viewer } = this.session.panel;
     const names = `${nameOf(pair.bodyA)} and ${nameOf(pair.bodyB)}`;
     const kept = pair.filtered === "yes";

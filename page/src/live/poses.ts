@@ -4,18 +4,11 @@
 // The poses that the asset keeps: joints go there, where they are now is kept under a name, and files
 // of poses are written and read.
 import { h } from "../panel/dom";
-import type { HelloNotice } from "./connection";
 import { restWhileClosed, whenOpen, writer } from "./pages";
+import type { NamedPose } from "./protocol";
 import { review } from "./review";
 import { download } from "./save";
 import { type Session, attempt } from "./session";
-
-interface Pose {
-  name: string;
-  path: string;
-  valid: boolean;
-  joints: { joint: string; problem: string | null }[];
-}
 
 const longestFile = 30_000; // characters: what a request holds
 
@@ -44,13 +37,13 @@ export class Poses {
       h("div", { class: "choices" }, this.name, save),
       h("div", { class: "buttons" }, h("button", { type: "button", onclick: () => this.write() }, "Export"), load, picker),
     );
-    session.connection.on<HelloNotice>("hello", (notice) => (this.readOnly = notice.readOnly));
+    session.connection.on("hello", (notice) => (this.readOnly = notice.readOnly));
     restWhileClosed(session, page);
     whenOpen(session, "Poses", () => void this.ask());
   }
 
   private async ask(): Promise<void> {
-    const answer = await attempt<{ poses: Pose[]; file: string }>(this.session, "poses");
+    const answer = await attempt(this.session, "poses");
     if (answer) {
       this.file = answer.file;
       const none = h("li", {}, "The asset keeps no poses yet.");
@@ -58,7 +51,7 @@ export class Poses {
     }
   }
 
-  private item(pose: Pose): HTMLElement {
+  private item(pose: NamedPose): HTMLElement {
     const button = (text: string, act: () => void) =>
       h("button", { type: "button", "aria-label": `${text} ${pose.name}`, onclick: act }, text);
     const go = button("Go to", () => void attempt(this.session, "goToPose", { pose: pose.path, hold: this.hold.checked }));
@@ -80,7 +73,7 @@ export class Poses {
   }
 
   /** Takes the name from the field. */
-  private async rename(pose: Pose): Promise<void> {
+  private async rename(pose: NamedPose): Promise<void> {
     const name = this.name.value.trim();
     if (!name) {
       this.session.messages.complain("Write the new name into the field below first.");

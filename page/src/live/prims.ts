@@ -3,7 +3,6 @@
 //
 // All prims of the stage in the tree: asked for when there is another picture, of large scenes when
 // somebody is about to search.
-import type { SceneNotice } from "./connection";
 import { type Session, attempt } from "./session";
 
 /** Scenes with more prims that have physics or shapes wait for a search. */
@@ -16,7 +15,7 @@ export class Prims {
   constructor(private readonly session: Session) {
     const { connection, panel } = session;
     panel.tree.onSearch = () => void this.ask();
-    connection.on<SceneNotice>("scene", (scene) => (this.revision = scene.revision));
+    connection.on("scene", (scene) => (this.revision = scene.revision));
     panel.viewer.addEventListener("load", () => {
       if (panel.tree.size < mostAtOnce) {
         void this.ask();
@@ -29,7 +28,7 @@ export class Prims {
       return;
     }
     this.known = this.revision;
-    const answer = await attempt<{ prims: { path: string; type: string }[] }>(this.session, "tree");
+    const answer = await attempt(this.session, "tree");
     if (answer) {
       this.session.panel.tree.addPrims(answer.prims);
     }

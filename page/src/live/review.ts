@@ -4,11 +4,14 @@
 // Edits of the panels: what they would change in which file is shown first, and written when somebody
 // says so. They go the way of every edit, so that Undo takes them back.
 import { h } from "../panel/dom";
+import type { Answer, Fields, RequestName } from "./connection";
+import type { Edited } from "./protocol";
 import { type Session, attempt } from "./session";
 
-interface Edited {
-  files: { file: string; diff: string | null }[];
-}
+/** Requests that write. */
+type Edit = {
+  [Name in RequestName]: Answer<Name> extends Edited ? ("dryRun" extends keyof Fields<Name> ? Name : never) : never;
+}[RequestName];
 
 const mostLines = 2000;
 const kindOf = (line: string): string =>
@@ -27,8 +30,8 @@ function diffOf({ files }: Edited): HTMLElement[] {
 }
 
 /** Asks whether to write; the request is sent with `dryRun` before. -> whether it was written. */
-export async function review(session: Session, request: string, fields: Record<string, unknown>): Promise<boolean> {
-  const planned = await attempt<Edited>(session, request, { ...fields, dryRun: true });
+export async function review<Name extends Edit>(session: Session, request: Name, fields: Fields<Name>): Promise<boolean> {
+  const planned = await attempt(session, request, { ...fields, dryRun: true });
   if (!planned) {
     return false;
   }

@@ -3,7 +3,7 @@
 //
 // What all parts of the live page hold together: the connection, the panel, and where to complain.
 import type { Panel } from "../panel/panel";
-import type { Connection } from "./connection";
+import type { Answer, BareRequest, Connection, Fields, RequestName } from "./connection";
 import type { Messages } from "./messages";
 
 export interface Session {
@@ -13,13 +13,11 @@ export interface Session {
 }
 
 /** Asks, and complains where it is refused; then there is no result. */
-export async function attempt<T>(
-  session: Session,
-  name: string,
-  fields: Record<string, unknown> = {},
-): Promise<T | null> {
+export function attempt<Name extends BareRequest>(session: Session, name: Name): Promise<Answer<Name> | null>;
+export function attempt<Name extends RequestName>(session: Session, name: Name, fields: Fields<Name>): Promise<Answer<Name> | null>;
+export async function attempt<Name extends RequestName>(session: Session, name: Name, fields: Fields<Name> = {}): Promise<Answer<Name> | null> {
   try {
-    return await session.connection.ask<T>(name, fields);
+    return await session.connection.ask(name, fields);
   } catch (fault) {
     session.messages.complain(fault);
     return null;

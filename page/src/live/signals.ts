@@ -4,7 +4,7 @@
 // What can be plotted of joints, bodies and the whole: names are those of the columns of a log of
 // `tenon sim` (docs/simulation.md), lengths in metres, angles in degrees.
 import { nameOf } from "../panel/dom";
-import type { LiveDof, SceneNotice } from "./connection";
+import type { LiveDof, SceneNotice } from "./protocol";
 import type { History, Layout, Moments, Sample } from "./history";
 
 const degrees = 180 / Math.PI;

@@ -4,7 +4,7 @@
 // What is wrong as long as it is: a simulation that failed, changed files that cannot be opened, and
 // a server that is gone. The picture says so, because it looks as if nothing had happened.
 import { h, nameOf } from "../panel/dom";
-import type { StateNotice } from "./connection";
+import type { StateNotice } from "./protocol";
 import { textOf } from "./messages";
 import { type Session, attempt } from "./session";
 
@@ -14,7 +14,7 @@ export class Standing {
   constructor(private readonly session: Session) {
     const { connection, panel } = session;
     panel.picture.append(this.note);
-    connection.on<StateNotice>("state", (state) => this.show(state));
+    connection.on("state", (state) => this.show(state));
     connection.on("closed", () => this.say("Not connected: this picture is the last one that came."));
   }
 

@@ -3,27 +3,21 @@
 //
 // A long request: a bar of how far it is, and a button that ends it.
 import { h } from "../panel/dom";
-import { Refusal } from "./connection";
+import { type Answer, type Fields, Refusal, type RequestName } from "./connection";
 import { type Session, attempt } from "./session";
 
-interface Progress {
-  of: string;
-  what: string;
-  done: number;
-}
-
-export class Task {
+export class Task<Name extends RequestName> {
   private readonly bar = h("progress", { max: 1, value: 0, "aria-label": "How far it is" });
   private readonly text = h("span", { role: "status" });
   readonly element: HTMLElement;
 
   constructor(
     private readonly session: Session,
-    private readonly request: string,
+    private readonly request: Name,
   ) {
     const cancel = h("button", { type: "button", onclick: () => void attempt(session, "cancel") }, "Cancel");
     this.element = h("div", { class: "task", hidden: true }, this.bar, " ", this.text, " ", cancel);
-    session.connection.on<Progress>("progress", ({ of, what, done }) => {
+    session.connection.on("progress", ({ of, what, done }) => {
       if (of === request) {
         this.bar.value = done;
         this.text.textContent = what;
@@ -36,7 +30,7 @@ export class Task {
   }
 
   /** The answer; null where it was refused, which is told, or ended. */
-  async run<T>(fields: Record<string, unknown>): Promise<T | null> {
+  async run(fields: Fields<Name>): Promise<Answer<Name> | null> {
     if (this.busy) {
       return null;
     }
@@ -44,7 +38,7 @@ export class Task {
     this.text.textContent = "";
     this.element.hidden = false;
     try {
-      return await this.session.connection.ask<T>(this.request, fields);
+      return await this.session.connection.ask(this.request, fields);
     } catch (fault) {
       const ended = fault instanceof Refusal && /\.ended$/.test(fault.finding.rule ?? "");
       ended ? this.session.messages.say("Ended before its end.") : this.session.messages.complain(fault);

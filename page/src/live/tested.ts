@@ -5,20 +5,9 @@
 import { figure, h, nameOf } from "../panel/dom";
 import { Chart } from "./chart";
 import { Queue, type Sample, type Samples } from "./history";
+import type { TestSignal, Tested } from "./protocol";
 import type { Session } from "./session";
 import type { Signal } from "./signals";
-
-export interface Tested {
-  joint: string;
-  axis: string;
-  verdict: string;
-  reasons: string[];
-  saturation: number | null;
-  limits?: { target: number; settlingTime: number | null; maxHoldError: number | null; at: number | null }[];
-  step?: { overshoot: number | null; riseTime: number | null; settlingTime: number | null; steadyError: number | null };
-  sine?: { positionError: number | null; lag: number | null; gain: number | null };
-  signal?: { time: number[]; command: number[]; position: (number | null)[] };
-}
 
 const degrees = 180 / Math.PI;
 
@@ -43,7 +32,7 @@ class Trace implements Samples {
   readonly samples = new Queue<Sample>();
   readonly shown = null;
 
-  constructor({ time, command, position }: NonNullable<Tested["signal"]>) {
+  constructor({ time, command, position }: TestSignal) {
     time.forEach((moment, i) =>
       this.samples.push({
         time: moment,
@@ -87,7 +76,7 @@ export class TestedDrives {
   private readonly known = new Set<string>();
 
   constructor(session: Session) {
-    session.connection.on<{ result: Tested }>("tested", ({ result }) => this.add(result));
+    session.connection.on("tested", ({ result }) => this.add(result));
   }
 
   clear(): void {

@@ -4,12 +4,12 @@
 // The bar of what was simulated: it is scrubbed, stepped through and replayed, once or in a loop,
 // while the simulation stays where it is. Whatever steers the simulation comes back to its moment.
 import { h, timeSlider } from "../panel/dom";
-import type { SceneNotice, StateNotice } from "./connection";
+import type { RequestName } from "./connection";
 import type { Events, RunEvent } from "./events";
 import type { History } from "./history";
 import type { Session } from "./session";
 
-const steering = new Set(["play", "step", "reset", "setJoint", "drag", "force", "engine", "variant"]);
+const steering = new Set<RequestName>(["play", "step", "reset", "setJoint", "drag", "force", "engine", "variant"]);
 const mostMarks = 200;
 const liveEvery = 250; // ms
 const seconds = (time: number) => time.toFixed(2);
@@ -61,9 +61,9 @@ export class Timeline {
     });
     events.addEventListener("change", () => this.updateSoon());
     const { connection } = session;
-    connection.on<string>("asking", (name) => steering.has(name) && this.leave());
-    connection.on<SceneNotice>("scene", ({ simulates }) => (this.bar.hidden = !simulates));
-    connection.on<StateNotice>("state", (state) => (this.speed = state.speed));
+    connection.on("asking", (name) => steering.has(name) && this.leave());
+    connection.on("scene", ({ simulates }) => (this.bar.hidden = !simulates));
+    connection.on("state", (state) => (this.speed = state.speed));
     const past = () => this.history.shown !== null;
     const there = () => this.history.frames.length > 1;
     session.panel.keys.add(

@@ -3,7 +3,8 @@
 //
 // The bar below the picture: play, pause, step and reset, speed, engine, variants, and undo.
 import { figure, h, nameOf } from "../panel/dom";
-import type { HelloNotice, SceneNotice, StateNotice } from "./connection";
+import type { BareRequest } from "./connection";
+import type { SceneNotice, StateNotice } from "./protocol";
 import { type Session, attempt } from "./session";
 
 export class Tools {
@@ -46,12 +47,12 @@ export class Tools {
     );
     session.panel.foot.append(bar);
     session.panel.tools.append(this.undo, this.redo);
-    session.connection.on<HelloNotice>("hello", (notice) => {
+    session.connection.on("hello", (notice) => {
       this.undo.hidden = notice.readOnly;
       this.redo.hidden = notice.readOnly;
     });
-    session.connection.on<SceneNotice>("scene", (notice) => this.showScene(notice));
-    session.connection.on<StateNotice>("state", (notice) => this.showState(notice));
+    session.connection.on("scene", (notice) => this.showScene(notice));
+    session.connection.on("state", (notice) => this.showState(notice));
     session.connection.on("closed", () => {
       const menus = Array.from(this.variants.querySelectorAll("select"));
       [...this.movers, this.undo, this.redo, this.speed, this.engine, ...menus].forEach(
@@ -74,7 +75,7 @@ export class Tools {
   }
 
   private addKeys(): void {
-    const ask = (name: string) => () => void attempt(this.session, name);
+    const ask = (name: BareRequest) => () => void attempt(this.session, name);
     const moves = () => !this.play.disabled;
     this.session.panel.keys.add(
       { key: " ", label: "Play or pause", act: () => this.toggle(), there: moves },
