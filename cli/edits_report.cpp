@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "cli/output.h"
 #include "cli/text/difference_text.h"
 #include "cli/text/terminal_text.h"
 #include "tenon/asset/answers/edited_json.h"
+#include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/diff/unified_diff.h"
 
@@ -26,6 +28,17 @@ bool is_of_target(const AssetEdit& edit, const EditedPlace& place) {
   const bool of_layer =
       place.spec.is_absolute_root() && place.before.empty() && place.after.empty();
   return edit.is_about_prim() && edit.is_about_specs() && (place.spec.is_property() || of_layer);
+}
+
+/// A value as people read it: the list of a robot's links ends after some of them.
+std::string shown_value(const std::string& value) {
+  constexpr std::size_t kLongest = 400;
+  constexpr std::size_t kShown = 200;
+  const std::size_t end = value.rfind(", ", kShown);
+  return value.size() <= kLongest || end == std::string::npos
+             ? value
+             : value.substr(0, end) + ", ... (" + grouped_digits(value.size()) +
+                   " characters in all)";
 }
 
 std::string what(const AssetEdit& edit, const EditedPlace& place) {
@@ -51,8 +64,8 @@ std::string place_line(const AssetEdit& edit, const EditedPlace& place) {
   if (edit.kind == AssetEdit::Kind::AddVariant) {
     text += "  + " + edit.value;
   } else if (edit.api.empty() && !of_target) {
-    text += "  " + (place.before.empty() ? "none" : place.before) + " -> " +
-            (place.after.empty() ? "none" : place.after);
+    text += "  " + (place.before.empty() ? "none" : shown_value(place.before)) + " -> " +
+            (place.after.empty() ? "none" : shown_value(place.after));
   }
   text += edit.mesh == nullptr ? "" : ", " + edit.mesh->about;
   text += "  (" + place.why;
@@ -71,10 +84,10 @@ std::string part_of_line(const AssetEdit& edit, const EditedPlace& place) {
     return (edit.kind == AssetEdit::Kind::RemoveApi ? "without " : "") + edit.api.str();
   }
   if (!edit.object.is_property()) {
-    return place.after + (edit.mesh == nullptr ? "" : " (" + edit.mesh->about + ")");
+    return shown_value(place.after) + (edit.mesh == nullptr ? "" : " (" + edit.mesh->about + ")");
   }
   const std::string name = edit.object.name().str();
-  return place.after.empty() ? "without " + name : name + " = " + place.after;
+  return place.after.empty() ? "without " + name : name + " = " + shown_value(place.after);
 }
 
 /// The edits of one prim in one file, which were asked for together, as one line.
@@ -148,18 +161,18 @@ void print_files(const Report& report, const EditedAsset& asset, bool dry_run) {
 void print_physics(const Report& report, const EditedAsset& asset, bool dry_run) {
   constexpr std::size_t kShown = 40;
   std::vector<std::pair<std::string, std::string>> lines;  // difference, variants
+  std::unordered_map<std::string, std::size_t> known;      // line of a difference
   for (const PhysicsEffect& effect : asset.physics) {
     for (const scene::SceneDifference& difference : effect.differences) {
       if (difference.object == "scene" && difference.path == "none") {
         continue;  // the scene that is assumed where there is none
       }
       const std::string text = difference_text(difference);
-      const auto known = std::find_if(lines.begin(), lines.end(),
-                                      [&](const auto& line) { return line.first == text; });
-      if (known == lines.end()) {
+      const auto [line, is_new] = known.try_emplace(text, lines.size());
+      if (is_new) {
         lines.emplace_back(text, effect.variant);
       } else {
-        known->second += ", " + effect.variant;
+        lines[line->second].second += ", " + effect.variant;
       }
     }
   }

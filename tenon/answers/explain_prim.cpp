@@ -6,10 +6,12 @@
 // layers. A prim may be several things at once, and each has a key of its own. Which properties
 // matter to physics is told by their prefix. The numbers S- in reasons are the rules of
 // docs/physics-conformance.md.
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tenon/answers/explain.h"
 #include "tenon/answers/mass_json.h"
@@ -21,14 +23,15 @@
 namespace tenon::answers {
 namespace {
 
-/// The row of a list of the description that has this path; null when there is none.
-Json row_with_path(const Json& list, const std::string& path) {
-  for (const Json& row : list) {
-    if (row.contains("path") && row["path"] == path) {
-      return row;
-    }
-  }
-  return nullptr;
+/// The row of the first object of a list of the description that has this path; null when there is
+/// none.
+template <class Object>
+Json row_with_path(const Explained& explained, const std::vector<Object>& list, Path path) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const Object& object) { return object.path == path; });
+  return found == list.end()
+             ? Json()
+             : scene_row_json(explained.scene, Geometry::Hash, scene::view_of(*found));
 }
 
 bool matters(std::string_view name) {
@@ -61,22 +64,23 @@ const physics::MassProvenance* provenance_of(const Explained& explained, Path pa
   return nullptr;
 }
 
-void add_body(const Explained& explained, const Json& physics, Path path, Json& answer) {
-  Json body = row_with_path(physics["bodies"], path.str());
+void add_body(const Explained& explained, Path path, Json& answer) {
+  Json body = row_with_path(explained, explained.scene.bodies, path);
   const physics::MassProvenance* provenance = provenance_of(explained, path);
   if (body.is_null() || provenance == nullptr) {
     return;
   }
+  const scene::Index number = provenance->body;
   Json colliders = Json::array();
-  for (const Json& row : physics["colliders"]) {
-    if (row["body"] == path.str()) {
-      colliders.push_back(row["path"]);
+  for (const scene::Collider& collider : explained.scene.colliders) {
+    if (collider.body == number) {
+      colliders.push_back(collider.path.str());
     }
   }
   Json joints = Json::array();
-  for (const Json& row : physics["joints"]) {
-    if (row["body0"] == path.str() || row["body1"] == path.str()) {
-      joints.push_back(row["path"]);
+  for (const scene::Joint& joint : explained.scene.joints) {
+    if (joint.body0 == number || joint.body1 == number) {
+      joints.push_back(joint.path.str());
     }
   }
   body["colliders"] = std::move(colliders);
@@ -114,13 +118,13 @@ Json binding_json(const Explained& explained, const scene::Collider& collider) {
   return row;
 }
 
-void add_collider(const Explained& explained, const Json& physics, Path path, Json& answer) {
+void add_collider(const Explained& explained, Path path, Json& answer) {
   for (std::size_t i = 0; i < explained.scene.colliders.size(); ++i) {
     const scene::Collider& collider = explained.scene.colliders[i];
     if (!(collider.path == path)) {
       continue;
     }
-    Json row = row_with_path(physics["colliders"], path.str());
+    Json row = scene_row_json(explained.scene, Geometry::Hash, scene::view_of(collider));
     row["binding"] = binding_json(explained, collider);
     row["groups"] = Json::array();
     for (const scene::Index group : explained.scene.filter.groups_of_collider[i]) {
@@ -134,28 +138,28 @@ void add_collider(const Explained& explained, const Json& physics, Path path, Js
 
 Json explain_prim(const Explained& explained, const stage::Prim& prim) {
   const Path path = prim.path();
-  const Json physics = scene_json_value(explained.scene, Geometry::Hash);
   Json answer = {{"prim", path.str()}, {"type", prim.type_name().str()}};
   answer["apis"] = Json::array();
   for (const Token& api : prim.authored_api_schemas()) {
     answer["apis"].push_back(api.str());
   }
   answer["specs"] = specs_json(prim);
-  add_body(explained, physics, path, answer);
-  add_collider(explained, physics, path, answer);
+  add_body(explained, path, answer);
+  add_collider(explained, path, answer);
   for (std::size_t j = 0; j < explained.scene.joints.size(); ++j) {
     if (explained.scene.joints[j].path == path) {
       answer["joint"] = joint_json(explained, static_cast<scene::Index>(j));
     }
   }
-  static constexpr std::pair<const char*, const char*> kLists[] = {
-      {"scene", "scenes"}, {"material", "materials"}, {"articulation", "articulations"}};
-  for (const auto& [name, list] : kLists) {
-    const Json row = row_with_path(physics[list], path.str());
+  const auto add = [&](const char* name, const auto& list) {
+    Json row = row_with_path(explained, list, path);
     if (!row.is_null()) {
-      answer[name] = row;
+      answer[name] = std::move(row);
     }
-  }
+  };
+  add("scene", explained.scene.scenes);
+  add("material", explained.scene.materials);
+  add("articulation", explained.scene.articulations);
   answer["properties"] = spoken_properties_json(explained, prim);
   return answer;
 }

@@ -457,6 +457,13 @@ Json scene_json_value(const PhysicsScene& scene, Geometry geometry) {
   return sink.take();
 }
 
+Json scene_row_json(const PhysicsScene& scene, Geometry geometry, DataView row) {
+  JsonValueSink sink;
+  const References references(scene);
+  Writer(references, geometry, sink).object(row);
+  return sink.take();
+}
+
 std::string scene_json(const PhysicsScene& scene, Geometry geometry) {
   const References references(scene);
   std::string text;

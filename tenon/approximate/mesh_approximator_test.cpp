@@ -157,6 +157,18 @@ TEST(Simplify, AFlatGridBecomesAFewTriangles) {
   EXPECT_NEAR(area, 4, 1e-3);
 }
 
+TEST(Simplify, AMeshWhoseTrianglesAllMeetIsNotGivenToTheLibrary) {
+  TriangleMesh mesh;
+  mesh.points = {{{0, 0, 0}}, {{1, 0, 0}}};
+  for (std::int32_t i = 0; i < 20'000; ++i) {
+    mesh.points.push_back({{0, 1.0 * i, 1.0 * i * i}});
+    mesh.triangles.push_back({{0, 1, i + 2}});
+  }
+  EXPECT_FALSE(simplified(mesh));
+  mesh.triangles.resize(1000);
+  EXPECT_TRUE(simplified(mesh));
+}
+
 TEST(Simplify, APrismStaysAsItIs) { EXPECT_NEAR(volume(simplified(l_prism()).value()), 3, 0.1); }
 
 }  // namespace

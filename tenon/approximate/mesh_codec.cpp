@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// meshoptimizer compares the triangles at each point with each other, so a mesh whose triangles
+// meet at few points is left as it is.
 #include "tenon/approximate/mesh_codec.h"
 
 #include <meshoptimizer.h>
 
+#include "tenon/base/limits/collider_limits.h"
 #include "tenon/base/shared_library.h"
 
 namespace tenon::approximate {
@@ -103,9 +107,21 @@ std::optional<std::string> encoded_triangles(const std::vector<std::uint32_t>& c
   return encoded;
 }
 
+std::size_t meshoptimizer_work(const std::vector<std::uint32_t>& corners, std::size_t point_count) {
+  std::vector<std::size_t> triangles(point_count);
+  for (const std::uint32_t corner : corners) {
+    ++triangles[corner];
+  }
+  std::size_t work = 0;
+  for (const std::size_t count : triangles) {
+    work += count * count;
+  }
+  return work;
+}
+
 std::optional<std::vector<std::uint32_t>> put_in_order(std::vector<std::uint32_t>& corners,
                                                        std::size_t point_count) {
-  if (!codec().complete) {
+  if (!codec().complete || meshoptimizer_work(corners, point_count) > limits::kMeshOptimizerWork) {
     return std::nullopt;
   }
   std::vector<std::uint32_t> ordered(corners.size());
@@ -126,7 +142,8 @@ std::optional<std::vector<std::uint32_t>> put_in_order(std::vector<std::uint32_t
 std::optional<std::vector<std::uint32_t>> thinned_out(const std::vector<std::uint32_t>& corners,
                                                       const std::vector<Vec3f>& points,
                                                       std::size_t wanted) {
-  if (!codec().complete) {
+  if (!codec().complete ||
+      meshoptimizer_work(corners, points.size()) > limits::kMeshOptimizerWork) {
     return std::nullopt;
   }
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));

@@ -26,14 +26,19 @@ std::optional<std::string> encoded_attributes(std::string_view bytes, std::size_
 std::optional<std::string> encoded_triangles(const std::vector<std::uint32_t>& corners,
                                              std::size_t point_count);
 
+/// What meshoptimizer takes at most to order or simplify triangles: it looks at all triangles of a
+/// point for each of them. Beyond limits::kMeshOptimizerWork meshes stay as they are.
+std::size_t meshoptimizer_work(const std::vector<std::uint32_t>& corners, std::size_t point_count);
+
 /// Puts triangles into an order that encodes well. Returns the new number of each point, by which
 /// points are to be put into order, too; points that no triangle has get numbers behind all others.
+/// Nothing where the limit is exceeded.
 std::optional<std::vector<std::uint32_t>> put_in_order(std::vector<std::uint32_t>& corners,
                                                        std::size_t point_count);
 
 /// The triangles of a mesh simplified to about `wanted` triangles: edges collapse by quadric errors
 /// (Garland and Heckbert 1997) up to a tenth of the mesh's size. Corners still name the same
-/// points.
+/// points. Nothing where the limit is exceeded.
 std::optional<std::vector<std::uint32_t>> thinned_out(const std::vector<std::uint32_t>& corners,
                                                       const std::vector<Vec3f>& points,
                                                       std::size_t wanted);

@@ -11,6 +11,8 @@
 
 #include <meshoptimizer.h>
 
+#include "tenon/approximate/mesh_codec.h"
+#include "tenon/base/limits/collider_limits.h"
 #include "tenon/base/shared_library.h"
 
 namespace tenon::approximate {
@@ -99,6 +101,9 @@ std::optional<scene::TriangleMesh> simplified(const scene::TriangleMesh& mesh) {
     for (const std::int32_t i : t.v) {
       corners.push_back(static_cast<unsigned>(i));
     }
+  }
+  if (meshoptimizer_work(corners, mesh.points.size()) > limits::kMeshOptimizerWork) {
+    return std::nullopt;
   }
   std::vector<unsigned> fewer(corners.size());
   const std::size_t count = simplify(fewer, corners, points);

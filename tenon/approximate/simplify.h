@@ -11,7 +11,7 @@ namespace tenon::approximate {
 
 /// As few triangles as stay within one hundredth of the mesh's size of it, by edge collapse with
 /// quadric errors (Garland and Heckbert 1997) in meshoptimizer. Points are a subset of the mesh's.
-/// Nothing where meshoptimizer is not there.
+/// Nothing where meshoptimizer is not there, or limits::kMeshOptimizerWork is exceeded.
 std::optional<scene::TriangleMesh> simplified(const scene::TriangleMesh& mesh);
 
 /// For example "0.18"; empty where it is not there.

@@ -46,6 +46,7 @@ constexpr int kAround = 64;           // corners of what is round
 struct Seen {
   double distance = kInfinity;  // below zero: inside, and by how much at least
   std::uint32_t part = 0;       // convex, and this near or nearer
+  std::size_t work = 0;         // boxes, triangles and planes looked at
 };
 
 /// A solid within planes.
@@ -65,13 +66,17 @@ class ConvexPart {
   }
 
   /// Inside: minus the depth.
-  double distance(const Vec3d& point) const {
+  Seen nearest(const Vec3d& point) const {
     double highest = -kInfinity;
-    for (std::size_t i = 0; i < normals_.size(); ++i) {
-      highest = std::max(highest, dot(normals_[i], point) - offsets_[i]);
+    std::size_t looked_at = 0;
+    for (; looked_at < normals_.size() && highest <= slack_; ++looked_at) {
+      highest = std::max(highest, dot(normals_[looked_at], point) - offsets_[looked_at]);
     }
-    return !normals_.empty() && highest <= slack_ ? std::min(highest, 0.0)
-                                                  : tree_.nearest(point).distance;
+    if (!normals_.empty() && highest <= slack_) {
+      return {std::min(highest, 0.0), 0, looked_at};
+    }
+    const SurfaceTree::Nearest found = tree_.nearest(point);
+    return {found.distance, 0, looked_at + found.work};
   }
 
  private:
@@ -96,25 +101,27 @@ class ShapeTarget {
 
   Seen nearest(const Vec3d& point) const {
     if (ball_) {
-      return {distance_to(0, point), 0};
+      return {distance_to(0, point), 0, 1};
     }
     if (triangles_) {
       const SurfaceTree::Nearest found = triangles_->nearest(point);
-      return {found.distance, found.triangle};
+      return {found.distance, found.triangle, found.work};
     }
     Seen seen;
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-      const double distance = parts_[i].distance(point);
-      if (distance < seen.distance) {
-        seen = {distance, i};
+      const Seen own = parts_[i].nearest(point);
+      if (own.distance < seen.distance) {
+        seen.distance = own.distance;
+        seen.part = i;
       }
+      seen.work += own.work;
     }
     return seen;
   }
   double distance_to(std::uint32_t part, const Vec3d& point) const {
     return ball_        ? length(point - ball_->center) - ball_->radius
            : triangles_ ? triangles_->distance_to(part, point)
-                        : parts_[part].distance(point);
+                        : parts_[part].nearest(point).distance;
   }
 
  private:
@@ -131,7 +138,7 @@ class MeshTarget {
   Seen nearest(const Vec3d& point) const {
     const SurfaceTree::Nearest found = tree_.nearest(point);
     const bool inside = closed_ && tree_.contains(point);
-    return {inside ? -found.distance : found.distance, found.triangle};
+    return {inside ? -found.distance : found.distance, found.triangle, found.work};
   }
   double distance_to(std::uint32_t part, const Vec3d& point) const {
     return tree_.distance_to(part, point);
@@ -146,11 +153,17 @@ class MeshTarget {
 template <class Target>
 class Farthest {
  public:
-  Farthest(const Target& target, double tolerance) : target_(target), tolerance_(tolerance) {}
+  /// `place` is one of the target's.
+  Farthest(const Target& target, const Vec3d& place, double tolerance)
+      : target_(target), place_(place), tolerance_(tolerance) {}
 
   void look_at(const TriangleMesh& mesh) {
     for (const Vec3d& point : mesh.points) {
-      best_ = std::max(best_, target_.nearest(point).distance);
+      if (is_spent()) {
+        left_out_ = std::max(left_out_, length(point - place_));
+        continue;
+      }
+      best_ = std::max(best_, nearest(point).distance);
     }
     for (const Vec3i& t : mesh.triangles) {
       const auto corner = [&](std::size_t i) {
@@ -161,7 +174,8 @@ class Farthest {
   }
 
   void refine() {
-    for (std::size_t work = 0; !pending_.empty() && work < limits::kSurfaceParts; ++work) {
+    for (std::size_t halved = 0; !pending_.empty() && halved < limits::kSurfaceParts && !is_spent();
+         ++halved) {
       const Part part = pending_.top();
       if (part.bound <= best_ + tolerance_) {
         return;
@@ -191,9 +205,23 @@ class Farthest {
     bool operator<(const Part& other) const { return bound < other.bound; }
   };
 
+  bool is_spent() const { return work_ >= limits::kSurfaceWork; }
+
+  Seen nearest(const Vec3d& point) {
+    const Seen seen = target_.nearest(point);
+    work_ += seen.work;
+    return seen;
+  }
+
   void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    if (is_spent()) {  // no place is farther than from one place of the target
+      for (const Vec3d& corner : {a, b, c}) {
+        left_out_ = std::max(left_out_, length(corner - place_));
+      }
+      return;
+    }
     const Vec3d middle = (a + b + c) * (1.0 / 3);
-    const Seen seen = target_.nearest(middle);
+    const Seen seen = nearest(middle);
     best_ = std::max(best_, seen.distance);
     double radius = 0;
     double corner_bound = 0;
@@ -210,7 +238,9 @@ class Farthest {
   }
 
   const Target& target_;
+  Vec3d place_;
   double tolerance_;
+  std::size_t work_ = 0;
   double best_ = 0;
   double left_out_ = 0;  // the highest bound of what is not halved
   std::priority_queue<Part> pending_;
@@ -352,16 +382,25 @@ ShapeSurface surface_of(const Shape& shape) {
   return surface;
 }
 
+namespace {
+
+Vec3d first_place(const TriangleMesh& mesh) {
+  return mesh.points.empty() ? Vec3d{} : mesh.points[0];
+}
+
+}  // namespace
+
 SurfaceGap surface_gap(const TriangleMesh& mesh, const ShapeSurface& shape) {
   const double tolerance = kTolerance * diagonal_of(mesh);
   const MeshTarget mesh_target(mesh);
-  Farthest<MeshTarget> outside(mesh_target, tolerance);
+  Farthest<MeshTarget> outside(mesh_target, first_place(mesh), tolerance);
   for (const TriangleMesh& part : shape.parts) {
     outside.look_at(part);
   }
   outside.refine();
   const ShapeTarget shape_target(shape);
-  Farthest<ShapeTarget> inside(shape_target, tolerance);
+  const Vec3d of_shape = shape.parts.empty() ? Vec3d{} : first_place(shape.parts[0]);
+  Farthest<ShapeTarget> inside(shape_target, of_shape, tolerance);
   inside.look_at(mesh);
   inside.refine();
   return {outside.best(), inside.best(), std::max(outside.error(), inside.error())};

@@ -34,7 +34,7 @@ struct SurfaceGap {
 
 /// Of a closed mesh what is inside of it is no gap; of an open one distances are those to its
 /// surface. `error` is half a hundredth of the size of the mesh at most, unless
-/// limits::kSurfaceParts ends the search.
+/// limits::kSurfaceParts or limits::kSurfaceWork ends the search.
 SurfaceGap surface_gap(const scene::TriangleMesh& mesh, const ShapeSurface& shape);
 
 /// The diagonal of the box along the axes around the points of a mesh [m]; 0 without points.

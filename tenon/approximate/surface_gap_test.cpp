@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/approximate/surface_gap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -98,6 +99,19 @@ TEST(SurfaceGap, OfABallIsExactInside) {
   const SurfaceGap gap = surface_gap(mesh, surface_of(ball));
   EXPECT_NEAR(gap.inside, std::sqrt(3.0) - 1, 1e-12);
   EXPECT_LT(gap.outside, 1e-12);
+}
+
+// Each of 20,000 points is compared with 20,000 planes, which is more than kSurfaceWork.
+TEST(SurfaceGap, ThatTakesTooLongTellsWhatIsUncertain) {
+  TriangleMesh mesh;
+  mesh.points.push_back({});
+  for (std::int32_t i = 1; i < 20'000; ++i) {
+    mesh.points.push_back({{std::cos(i), std::sin(i), 0}});
+    mesh.triangles.push_back({{0, i, std::max(1, i - 1)}});
+  }
+  const SurfaceGap gap = surface_gap(mesh, {{mesh}, true, std::nullopt});
+  EXPECT_LT(gap.inside, 1e-9);
+  EXPECT_GT(gap.error, 0.1);
 }
 
 TEST(SurfaceOf, RoundShapesAreClosedAndFaceOutward) {

@@ -151,13 +151,15 @@ SurfaceTree::Nearest SurfaceTree::nearest(const Vec3d& point) const {
     const std::uint32_t index = pending.back();
     pending.pop_back();
     const Node& node = nodes_[index];
+    found.work += 1 + node.end - node.begin;
     if (distance_to(node.box, point) >= found.distance) {
       continue;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const double distance = distance_to(i, point);
       if (distance < found.distance) {
-        found = {distance, i};
+        found.distance = distance;
+        found.triangle = i;
       }
     }
     if (node.begin == node.end) {

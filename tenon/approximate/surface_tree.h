@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,7 @@ class SurfaceTree {
   struct Nearest {
     double distance = kInfinity;
     std::uint32_t triangle = 0;  ///< for distance_to
+    std::size_t work = 0;        ///< boxes and triangles looked at
   };
   Nearest nearest(const Vec3d& point) const;
   double distance_to(std::uint32_t triangle, const Vec3d& point) const;

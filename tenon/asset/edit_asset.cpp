@@ -366,7 +366,8 @@ class AssetEditor::State {
   /// What depends on a prim may do so by an arc of a variant that is not selected.
   Result<void> open_other_variants(const AssetEdit& edit) {
     other_variants_.clear();
-    if (edit.kind != Kind::RemovePrim && edit.kind != Kind::RenamePrim) {
+    if (edit.kind != Kind::RemovePrim && edit.kind != Kind::RenamePrim &&
+        edit.kind != Kind::RenameProperty) {
       return {};
     }
     const bool all = selections_.size() > 1;  // of the set that selections_ are about

@@ -5,6 +5,11 @@
 #include "tenon/stage/transform_at.h"
 
 namespace tenon::bake {
+namespace {
+
+constexpr std::size_t kKeptParents = 100'000;  // matrices, 20 MB
+
+}  // namespace
 
 BodyTransforms::BodyTransforms(const stage::Stage& stage, const scene::PhysicsScene& scene)
     : meters_per_unit_(scene.meters_per_unit) {
@@ -46,14 +51,28 @@ Mat4d BodyTransforms::world_of_prim(const stage::Prim& prim, const PoseRecording
   return result;
 }
 
+const Mat4d& BodyTransforms::world_of_parent(const stage::Prim& parent,
+                                             const PoseRecording& recording, std::size_t frame,
+                                             double code) {
+  const std::pair key(parent.path().id(), frame);
+  const auto known = of_parents_.find(key);
+  if (known != of_parents_.end()) {
+    return known->second;
+  }
+  if (of_parents_.size() >= kKeptParents) {
+    of_parents_.clear();
+  }
+  return of_parents_.emplace(key, world_of_prim(parent, recording, frame, code)).first->second;
+}
+
 Mat4d BodyTransforms::local(std::size_t i, const PoseRecording& recording, std::size_t frame,
-                            double code) const {
+                            double code) {
   const Mat4d world = world_of_body(i, recording, frame);
   const stage::Prim& prim = placed_[i].prim;
   if (stage::local_transform(prim, code).resets_stack) {
     return world;
   }
-  return world * inverse(world_of_prim(prim.parent(), recording, frame, code));
+  return world * inverse(world_of_parent(prim.parent(), recording, frame, code));
 }
 
 }  // namespace tenon::bake

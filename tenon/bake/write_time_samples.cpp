@@ -58,7 +58,7 @@ void write_selections(const BakeOptions& options, layer::Layer& layer) {
 }
 
 /// All samples of one body; false when its op stack cannot hold them.
-bool collect(const BodyTransforms& transforms, std::size_t body, const PoseRecording& recording,
+bool collect(BodyTransforms& transforms, std::size_t body, const PoseRecording& recording,
              const scene::PhysicsScene& scene, OpStack& stack) {
   for (std::size_t frame = 0; frame < recording.frame_count(); ++frame) {
     const double code = code_of(scene, recording.times[frame]);
@@ -97,7 +97,7 @@ layer::Layer write_time_samples(const stage::Stage& stage, const scene::PhysicsS
   layer.set_may_lack_text();  // the stage may, and so may the name of its file
   write_metadata(stage, scene, recording, options, layer);
   write_selections(options, layer);
-  const BodyTransforms transforms(stage, scene);
+  BodyTransforms transforms(stage, scene);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     const stage::Prim prim = stage.prim(scene.bodies[body].path);
     if (scene.bodies[body].kinematic || !prim.is_valid()) {

@@ -38,7 +38,7 @@ std::optional<robot::Material> read_plain_color(SceneSource& source, const stage
 }  // namespace
 
 std::optional<Index> MaterialReader::material_of(const stage::Prim& prim) {
-  const Path path = stage::bound_material(prim, Token());
+  const Path path = stage::bound_material(prim, Token(), bindings_);
   if (path.empty()) {
     return std::nullopt;
   }

@@ -8,6 +8,7 @@
 
 #include "tenon/describe/robot_tree.h"
 #include "tenon/describe/scene_source.h"
+#include "tenon/stage/collections/material_binding.h"
 
 /// Internal to this folder.
 namespace tenon::describe {
@@ -28,6 +29,7 @@ class MaterialReader {
   std::optional<robot::Index> read(const stage::Prim& material);
 
   SceneSource& source_;
+  stage::CollectionBindings bindings_;
   std::vector<robot::Material> materials_;
   std::map<Path, std::optional<robot::Index>> known_;
   TakenNames names_;

@@ -8,8 +8,8 @@ using robot::Index;
 
 std::string TakenNames::make(const std::string& wanted) {
   std::string name = wanted;
-  for (int i = 1; !taken_.insert(name).second; ++i) {
-    name = wanted + "_" + std::to_string(i);
+  while (!taken_.insert(name).second) {
+    name = wanted + "_" + std::to_string(++last_[wanted]);
   }
   return name;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,7 @@ class TakenNames {
 
  private:
   std::set<std::string> taken_;
+  std::map<std::string, std::size_t> last_;  // number behind a name
 };
 
 /// Links and joints while they are made, where the links stand, and which prims they are of.

@@ -292,10 +292,14 @@ class Dynamics::State {
   /// Null where it takes more than the limits allow.
   const Dense* dense_of(std::size_t g) {
     const std::size_t size = coordinates_[g].size();
-    if (!dense_[g] && size <= limits::kDenseCoordinates && spend(size)) {
+    if (!dense_[g] && size <= limits::kDenseCoordinates && spend(size, size)) {
+      Eigen::MatrixXd rows = constraint_matrix(trees_[g]);
+      if (!spend(2 * static_cast<std::size_t>(rows.rows()), size)) {  // each is searched for pivots
+        return nullptr;
+      }
       Dense& dense = dense_[g].emplace();
       dense.mass = mass_of(g);
-      dense.rows = constraint_matrix(trees_[g]);
+      dense.rows = std::move(rows);
       dense.ties = ties_of(dense.rows);
       std::vector<Eigen::Index> all(size);
       std::iota(all.begin(), all.end(), 0);
@@ -308,9 +312,9 @@ class Dynamics::State {
     return dense_[g] ? &*dense_[g] : nullptr;
   }
 
-  /// False where the work for a dense system of so many columns is too much.
-  bool spend(std::size_t columns) {
-    work_ += columns * columns * columns;
+  /// False where the work for a dense system of so many rows and columns is too much.
+  bool spend(std::size_t rows, std::size_t columns) {
+    work_ += rows * columns * columns;
     return work_ <= limits::kDenseWork;
   }
 
@@ -363,7 +367,8 @@ class Dynamics::State {
     HeldMotion result;
     for (const bool drives_move : {false, true}) {
       std::vector<Eigen::Index> moving = moving_with(g, column, roots, drives_move);
-      if (!spend(moving.size())) {
+      const std::size_t rows = 2 * static_cast<std::size_t>(dense_[g]->rows.rows());
+      if (!spend(moving.size() + rows, moving.size())) {
         return {};
       }
       const LeastEnergy energy(dense.mass, dense.rows, moving);

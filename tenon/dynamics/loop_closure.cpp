@@ -96,7 +96,9 @@ bool loop_step(const Multibody& multibody, const scene::JointGroup& group, Postu
     return false;
   }
   const Eigen::VectorXd apart = violations(multibody, tree, posture);
-  if (!(apart.lpNorm<Eigen::Infinity>() > kClosed)) {
+  const std::size_t columns = tree.tree().members.size();
+  if (!(apart.lpNorm<Eigen::Infinity>() > kClosed) ||
+      static_cast<std::size_t>(apart.size()) * columns * columns > limits::kLoopWork) {
     return false;
   }
   const Eigen::VectorXd weights = weights_of(multibody, tree);

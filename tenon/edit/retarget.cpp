@@ -4,6 +4,7 @@
 // When a prim moves, what names it in its layer stack follows.
 #include "tenon/edit/default_prim.h"
 #include "tenon/edit/layer_editor.h"
+#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::edit {
@@ -93,7 +94,14 @@ bool follow_default_prim(Value& value, const Moves& moves) {
   return true;
 }
 
-bool follow_field(Token name, Value& value, const Moves& moves) {
+bool follow_expressions(Path spec, Value& value, const Moves& moves) {
+  return layer::map_paths(value, spec.prim(), [&moves](Path path) {
+    follow(path, moves);
+    return path;
+  });
+}
+
+bool follow_field(Path spec, Token name, Value& value, const Moves& moves) {
   if (name == fields::targetPaths || name == fields::connectionPaths ||
       name == fields::inheritPaths || name == fields::specializes) {
     return follow_list<Path>(value, moves);
@@ -107,7 +115,8 @@ bool follow_field(Token name, Value& value, const Moves& moves) {
   if (name == fields::layerRelocates) {
     return follow_relocates(value, moves);
   }
-  return name == fields::defaultPrim && follow_default_prim(value, moves);
+  return name == fields::defaultPrim ? follow_default_prim(value, moves)
+                                     : follow_expressions(spec, value, moves);
 }
 
 }  // namespace
@@ -124,7 +133,7 @@ void LayerEditor::retarget(const Moves& moves) {
     const layer::FieldList spec_fields = spec == nullptr ? layer::FieldList() : spec->field_list();
     for (const layer::Field& field : spec_fields.items()) {
       Value value = field.value;
-      if (follow_field(field.name, value, moves)) {
+      if (follow_field(path, field.name, value, moves)) {
         set(path, field.name, std::move(value));
       }
     }

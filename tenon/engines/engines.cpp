@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tenon/engines/sensors.h"
+#include "tenon/engines/start_pairs.h"
 
 namespace tenon::engines {
 namespace {
@@ -75,6 +76,7 @@ Result<std::unique_ptr<Simulation>> make_simulation(std::span<const Engine> buil
                                                     const SimulationOptions& options,
                                                     Diagnostics& diagnostics) {
   TENON_TRY(const Engine* found, find_engine(built, engine));
+  TENON_CHECK(check_start_pairs(scene));
   SimulationOptions all = options;
   all.outputs = with_needs_of_sensors(options.outputs, scene);
   return found->make(scene, all, diagnostics);

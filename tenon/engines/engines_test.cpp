@@ -11,6 +11,7 @@
 
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/engines/input_log.h"
+#include "tenon/engines/start_pairs.h"
 #include "tenon/engines/state_bytes.h"
 
 namespace tenon::engines {
@@ -41,6 +42,40 @@ TEST(Engines, ListsAnEngineThatIsNotBuiltAsUnavailable) {
   const std::vector<EngineInfo> infos = list_engines({});
   ASSERT_EQ(infos.size(), 3u);
   EXPECT_FALSE(infos[1].available);
+}
+
+/// Spheres beside each other in rows.
+scene::PhysicsScene spheres(std::size_t count, double apart) {
+  scene::PhysicsScene scene;
+  for (std::size_t i = 0; i < count; ++i) {
+    scene::Body body;
+    body.pose.position = {
+        {apart * static_cast<double>(i % 30), apart * static_cast<double>(i / 30), 0}};
+    scene.bodies.push_back(body);
+    scene::Collider collider;
+    collider.path = Path::from("/W").child(Token("b" + std::to_string(i)));
+    collider.body = static_cast<scene::Index>(i);
+    collider.shape.kind = scene::ShapeKind::Sphere;
+    collider.shape.radius = 0.5;
+    scene.colliders.push_back(collider);
+  }
+  scene.scenes.emplace_back();
+  return scene;
+}
+
+TEST(Engines, RefuseBodiesThatAllTouchAtTheStart) {
+  EXPECT_TRUE(check_start_pairs(spheres(900, 1.1)));
+  EXPECT_TRUE(check_start_pairs(spheres(400, 0)));  // few enough
+  const Result<void> refused = check_start_pairs(spheres(900, 0));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().diagnostic().rule, "engine.start-pairs");
+  EXPECT_EQ(refused.error().diagnostic().prim.substr(0, 4), "/W/b");
+  scene::PhysicsScene filtered = spheres(900, 0);
+  filtered.filter.group_paths = {Path::from("/W/g")};
+  filtered.filter.group_pair_off = {1};
+  filtered.filter.ungrouped_off = {0};
+  filtered.filter.groups_of_collider.assign(900, {0});
+  EXPECT_TRUE(check_start_pairs(filtered));
 }
 
 struct NameCase {

@@ -34,7 +34,7 @@ struct NewEvents {
 
 /// The run of an engine that can be asked for poses and velocities, and can be given new ones, but
 /// not for all that it keeps from step to step. Where the scene changes, joints that broke
-/// included, the model is built anew from the scene as it is now, with the bodies as they are. A
+/// included, the model is rebuilt from the scene as it is now, with the bodies as they are. A
 /// saved state is all that was set since the start, and restoring it makes the run again
 /// (input_log.h). An engine is derived from this class and has the model.
 class RebuiltSimulation : public SteeredSimulation {

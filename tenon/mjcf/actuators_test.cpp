@@ -34,6 +34,7 @@ TEST(JointDrive, OfSeveralActuatorsTheTighterLimitOfEffortCounts) {
 
 TEST(LinesText, NamesLinesThatAreKnown) {
   EXPECT_EQ(lines_text({3, 0, 5}), ": lines 3, 5");
+  EXPECT_EQ(lines_text({4}), ": line 4");
   EXPECT_EQ(lines_text({0}), "");
 }
 

@@ -60,13 +60,15 @@ std::string MjcfSource::name(mjtObj kind, int id, const char* otherwise) const {
 }
 
 mjsElement* MjcfSource::element(mjtObj kind, int id) const {
-  for (mjsElement* at = mjs_firstElement(&spec_, kind); at != nullptr;
-       at = mjs_nextElement(&spec_, at)) {
-    if (mjs_getId(at) == id) {
-      return at;
+  const auto [known, is_new] = elements_.try_emplace(kind);
+  if (is_new) {
+    for (mjsElement* at = mjs_firstElement(&spec_, kind); at != nullptr;
+         at = mjs_nextElement(&spec_, at)) {
+      known->second.emplace(mjs_getId(at), at);
     }
   }
-  return nullptr;
+  const auto found = known->second.find(id);
+  return found == known->second.end() ? nullptr : found->second;
 }
 
 std::vector<std::uint32_t> MjcfSource::lines_of(mjtObj kind) const {
@@ -78,16 +80,9 @@ std::vector<std::uint32_t> MjcfSource::lines_of(mjtObj kind) const {
   return lines;
 }
 
-std::uint32_t MjcfSource::line_of(mjtObj kind, int id) {
-  const auto [at, is_new] = lines_.try_emplace(kind);
-  if (is_new) {
-    for (mjsElement* element = mjs_firstElement(&spec_, kind); element != nullptr;
-         element = mjs_nextElement(&spec_, element)) {
-      at->second.emplace(mjs_getId(element), line_in(info_of(element, kind)));
-    }
-  }
-  const auto line = at->second.find(id);
-  return line == at->second.end() ? 0 : line->second;
+std::uint32_t MjcfSource::line_of(mjtObj kind, int id) const {
+  mjsElement* const found = element(kind, id);
+  return found == nullptr ? 0 : line_in(info_of(found, kind));
 }
 
 void MjcfSource::report(Severity severity, const char* rule, std::string message,
@@ -103,10 +98,11 @@ std::string lines_text(const std::vector<std::uint32_t>& lines) {
   std::string text;
   for (const std::uint32_t line : lines) {
     if (line != 0) {
-      text += (text.empty() ? ": lines " : ", ") + std::to_string(line);
+      text += (text.empty() ? "" : ", ") + std::to_string(line);
     }
   }
-  return text;
+  const bool is_one = text.find(',') == std::string::npos;
+  return text.empty() ? text : (is_one ? ": line " : ": lines ") + text;
 }
 
 }  // namespace tenon::mjcf

@@ -32,7 +32,7 @@ class MjcfSource {
   mjsElement* element(mjtObj kind, int id) const;
 
   /// Where the element is written, 1-based; 0: not known.
-  std::uint32_t line_of(mjtObj kind, int id);
+  std::uint32_t line_of(mjtObj kind, int id) const;
   /// Of all elements of a kind, in the order of their numbers.
   std::vector<std::uint32_t> lines_of(mjtObj kind) const;
 
@@ -46,7 +46,7 @@ class MjcfSource {
   const mjModel& model_;
   std::string file_;
   Diagnostics& diagnostics_;
-  std::map<mjtObj, std::map<int, std::uint32_t>> lines_;  // by kind and number, as asked for
+  mutable std::map<mjtObj, std::map<int, mjsElement*>> elements_;  // by number, as asked for
 };
 
 /// Takes the room that simulations of a model want out of its description, as long as this lives:

@@ -11,6 +11,7 @@
 // are read once, however often it is met.
 #include "tenon/physics/stage_walk.h"
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <string>
@@ -57,7 +58,11 @@ class Walker {
          std::optional<stage::Time> switches_at, Walk& walk)
       : values_(values), readings_(readings), switches_at_(switches_at), walk_(walk) {}
 
-  void run(const stage::Prim& root) {
+  void run(const stage::Stage& stage) {
+    for (const layer::LayerPtr& layer : stage.used_layers()) {
+      most_proxies_ += limits::kInstancedPhysicsPerSpec * layer->spec_count();
+    }
+    const stage::Prim root = stage.pseudo_root();
     push_children(root, {});
     while (!pending_.empty()) {
       const Pending next = pending_.back();
@@ -193,14 +198,21 @@ class Walker {
     if (state.instance == kNone && !prim.is_instance_proxy()) {
       return true;
     }
-    if (++instanced_ == limits::kInstancedPhysics + 1) {
+    const std::size_t most = state.instance == kNone
+                                 ? std::min(most_proxies_, limits::kInstancedPhysics)
+                                 : limits::kInstancedPhysics;
+    if (++instanced_ <= most) {
+      return true;
+    }
+    if (!told_instanced_) {
+      told_instanced_ = true;
       report(values_.diagnostics(), prim, Severity::Error, "stage.too-many-prims",
-             "instances bring more than " + std::to_string(limits::kInstancedPhysics) +
-                 " prims with physics (kInstancedPhysics); this one and those behind it are left "
-                 "out",
+             "instances bring more than " + std::to_string(most) +
+                 " prims with physics (kInstancedPhysics); this one and those after it are "
+                 "skipped",
              "reduce the references that multiply with each other");
     }
-    return instanced_ <= limits::kInstancedPhysics;
+    return false;
   }
 
   // S-38: prototypes are simulated once per instance, not where they stand.
@@ -397,6 +409,8 @@ class Walker {
   std::unordered_map<Path, std::size_t> instancer_index_;
   std::deque<Instancer> instancers_;  // by the first time that they are met
   std::size_t instanced_ = 0;
+  std::size_t most_proxies_ = limits::kInstancedPhysicsBase;
+  bool told_instanced_ = false;
 };
 
 }  // namespace
@@ -426,7 +440,7 @@ Mat4d Walk::world_near(const PhysicsPrim& from, const stage::Prim& prim, stage::
 Walk walk_stage(const stage::Stage& stage, const AttributeValues& values, const Readings& readings,
                 std::optional<stage::Time> switches_at) {
   Walk walk;
-  Walker(values, readings, switches_at, walk).run(stage.pseudo_root());
+  Walker(values, readings, switches_at, walk).run(stage);
   std::vector<Path> paths;
   paths.reserve(walk.prims.size());
   for (const PhysicsPrim& found : walk.prims) {

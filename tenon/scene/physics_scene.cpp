@@ -216,12 +216,12 @@ namespace {
 /// Walks over the pairs of colliders that pairs of sets keep apart, also of one body.
 class SetWalk {
  public:
-  explicit SetWalk(const CollisionFilter& filter)
+  SetWalk(const CollisionFilter& filter, const SetPairs& off)
       : filter_(filter),
         members_(members_of_sets(filter)),
         partners_(members_.size()),
         found_for_(filter.sets_of_collider.size()) {
-    for (const auto& [a, b] : filter.sets_off) {
+    for (const auto& [a, b] : off) {
       partners_[a].push_back(b);
       if (a != b) {
         partners_[b].push_back(a);
@@ -316,9 +316,11 @@ class GroupWalk {
 
 }  // namespace
 
-ColliderPairs PhysicsScene::disabled_pairs() const {
+ColliderPairs PhysicsScene::disabled_pairs() const { return pairs_apart(filter.sets_off); }
+
+ColliderPairs PhysicsScene::pairs_apart(const SetPairs& off) const {
   ColliderPairs result;
-  SetWalk sets(filter);
+  SetWalk sets(filter, off);
   GroupWalk groups(*this);
   for (Index a = 0; a < colliders.size(); ++a) {
     std::vector<Index> others;

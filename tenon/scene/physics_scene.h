@@ -539,6 +539,8 @@ struct PhysicsScene : SceneContents {
   /// The pairs of colliders that filters keep apart, of sets and of groups; for reports. They are
   /// cut at limits::kDisabledPairs, or where finding them takes too long.
   ColliderPairs disabled_pairs() const;
+  /// The same of groups and of these pairs of sets alone.
+  ColliderPairs pairs_apart(const SetPairs& off) const;
 };
 
 }  // namespace tenon::scene

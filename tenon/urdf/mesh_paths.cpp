@@ -110,6 +110,7 @@ std::optional<std::string> MeshPaths::find_upward(const std::string& name,
         if (is_named_so) {
           take_folder(at.generic_string());
         }
+        seen_in_.emplace(name, at.generic_string());
         return found;
       }
     }
@@ -118,6 +119,7 @@ std::optional<std::string> MeshPaths::find_upward(const std::string& name,
       if (!package_name(below.generic_string()).empty()) {
         take_folder(below.generic_string());
       }
+      seen_in_.emplace(name, below.generic_string());
       return found;
     }
     if (at == at.parent_path()) {
@@ -212,6 +214,11 @@ std::string MeshPaths::advice(const std::string& written) const {
     }
     if (packages_.count(parts->first) != 0) {
       return "look into the folder given for the package \"" + parts->first + "\"";
+    }
+    if (const auto seen = seen_in_.find(parts->first); seen != seen_in_.end()) {
+      return "put \"" + parts->second + "\" into the package's folder, " +
+             shown_path(seen->second) + ", or give another folder: --package " + parts->first +
+             "=DIR";
     }
     return "give the package's folder: --package " + parts->first + "=DIR";
   }

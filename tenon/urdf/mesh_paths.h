@@ -52,6 +52,7 @@ class MeshPaths {
   std::vector<std::string> found_folders_;
   std::map<std::string, std::string> names_;  // of folders, once read
   std::set<std::string> guesses_;
+  std::map<std::string, std::string> seen_in_;  // folders by packages, where files were found
 };
 
 }  // namespace tenon::urdf

@@ -12,7 +12,8 @@
 namespace tenon::urdf {
 namespace {
 
-constexpr std::size_t kNamedOneByOne = 3;  ///< of a folder
+constexpr std::size_t kNamedOneByOne = 3;     ///< of a folder
+constexpr std::size_t kOptionsTogether = 32;  ///< in the advice of each finding
 
 std::string folder_of(const std::string& written) {
   return written.substr(0, written.find_last_of('/') + 1);
@@ -24,11 +25,11 @@ std::string option_of(const std::string& advice, const char* option) {
   return at == std::string::npos ? std::string() : advice.substr(at);
 }
 
-/// `advice` with the option for all of `options` in the place of its own.
+/// `advice` with the option for all of `options` in the place of its own, unless they are many.
 std::string with_all(const std::string& advice, const char* option,
                      const std::set<std::string>& options) {
   const std::string own = option_of(advice, option);
-  if (own.empty()) {
+  if (own.empty() || options.size() > kOptionsTogether) {
     return advice;
   }
   std::string all;

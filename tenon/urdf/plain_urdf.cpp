@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -103,8 +104,8 @@ class Replacement {
 
   std::string free_name(const std::string& wanted) {
     std::string name = wanted;
-    for (int i = 1; !names_.insert(name).second; ++i) {
-      name = wanted + "_" + std::to_string(i);
+    while (!names_.insert(name).second) {
+      name = wanted + "_" + std::to_string(++last_[wanted]);
     }
     return name;
   }
@@ -197,6 +198,7 @@ class Replacement {
   robot::RobotModel& model_;
   Diagnostics& diagnostics_;
   std::set<std::string> names_;
+  std::map<std::string, std::size_t> last_;  // number behind a name
   std::size_t capsules_ = 0;
   std::vector<std::string> without_effort_;
   std::vector<std::string> without_speed_;

@@ -49,7 +49,8 @@ bool has_sensor(const robot::Link& link, const robot::Site& wanted) {
 void UrdfReader::read_sensor(pugi::xml_node element) {
   const std::string name = element.attribute("name").value();
   const std::string type = element.attribute("type").value();
-  const std::string what = "holds the sensor \"" + name + "\" (" + type + ")";
+  const std::string what =
+      "holds the sensor \"" + name + "\"" + (type.empty() ? " without a type" : " (" + type + ")");
   const pugi::xml_node parent = element.child("parent");
   const std::optional<SiteSensorKind> kind = kind_of_sensor(type);
   const auto link = links_.find(parent.attribute("link").value());

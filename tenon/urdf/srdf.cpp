@@ -14,10 +14,12 @@ namespace {
 /// The error of broken XML, in words of this format.
 Error not_xml(const Error& error) {
   Diagnostic finding = error.diagnostic();
+  if (finding.rule == "urdf.xml") {
+    finding.rule = "srdf.xml";
+  }
   const std::size_t why = finding.message.find("it is not valid XML");
   if (why != std::string::npos) {
     finding.message = "no SRDF can be read from this, " + finding.message.substr(why);
-    finding.rule = "srdf.xml";
   }
   return {error.code(), std::move(finding)};
 }

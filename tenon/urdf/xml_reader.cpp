@@ -88,12 +88,14 @@ Result<pugi::xml_node> XmlReader::parse() {
 Error XmlReader::broken(std::size_t offset, const std::string& why) const {
   const std::size_t line = line_at(offset);
   return Error(ErrorCode::Parse,
-               "no robot description can be read from this, it is not valid XML: " + why)
+               text_.empty()
+                   ? "the file is empty"
+                   : "no robot description can be read from this, it is not valid XML: " + why)
       .in_file(file_)
       .at(static_cast<std::uint32_t>(line),
           static_cast<std::uint32_t>(offset - line_starts_[line - 1] + 1))
       .with_rule("urdf.xml")
-      .with_fix("correct the XML there");
+      .with_fix(text_.empty() ? "write it again, or name another file" : "correct the XML there");
 }
 
 robot::Place XmlReader::place_of(pugi::xml_node element) const { return place_of(element, {}); }

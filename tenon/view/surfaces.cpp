@@ -136,8 +136,8 @@ Vec3d in_unit_range(Vec3d color) {
 void Surfaces::note(Path prim, std::string what) { view_.notes.push_back({prim, std::move(what)}); }
 
 std::optional<Index> Surfaces::of(const stage::Prim& prim) {
-  Path path = stage::bound_material(prim, Token("preview"));
-  path = path.empty() ? stage::bound_material(prim, Token("full")) : path;
+  Path path = stage::bound_material(prim, Token("preview"), bindings_);
+  path = path.empty() ? stage::bound_material(prim, Token("full"), bindings_) : path;
   const stage::Prim material = path.empty() ? stage::Prim() : prim.prim_at(path);
   if (!material) {
     return of_display_color(prim);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "tenon/stage/collections/material_binding.h"
 #include "tenon/stage/prim.h"
 #include "tenon/stage/time.h"
 #include "tenon/view/make_view.h"
@@ -37,6 +38,7 @@ class Surfaces {
   const ViewOptions& options_;
   stage::Time time_;
   ViewScene& view_;
+  stage::CollectionBindings bindings_;
   std::map<Path, std::optional<Index>> known_;
   std::map<std::array<float, 4>, Index> colors_;
   std::map<std::string, std::optional<Index>> images_;

@@ -77,6 +77,96 @@ class Renamed(Case):
         self.assertIn("rel to = </Robot1/Link>", self.text())
         self.assertNotIn("Arm", self.text())
 
+    def test_path_expressions_follow(self):
+        self.write("root.usda", """
+            def "World" (
+                prepend apiSchemas = ["CollectionAPI:c"]
+            )
+            {
+                pathExpression collection:c:membershipExpression = "/Model/Arm//{isa:Mesh} + /World"
+                pathExpression collection:d:membershipExpression = "../Model/Arm - %/Model/Arm:x"
+                pathExpression[] several = ["/Model/Arms", "/Model/Arm/*"]
+            }
+            def "Robot" (
+                references = </Model>
+            )
+            {
+                pathExpression e = "/Robot/Arm & /Model"
+            }
+            """ + MODEL)
+        self.do("rename", "root.usda", "/Model/Arm", "Link")
+        for text in ('/Model/Link//{isa:"Mesh"} + /World', "/Model/Link - %/Model/Link:x",
+                     '["/Model/Arms", "/Model/Link/*"]', "/Robot/Link & /Model"):
+            self.assertIn(text, self.text())
+
+    def test_properties_of_what_is_composed_of_the_prim_follow(self):
+        self.write("root.usda", """
+            (
+                subLayers = [@sub.usda@]
+            )
+            def "Robot" (
+                references = </Model/Arm>
+                variants = {
+                    string v = "a"
+                }
+                prepend variantSets = "v"
+            )
+            {
+                double mass = 7
+                rel to = </Robot.mass>
+                variantSet "v" = {
+                    "a" {
+                    }
+                    "b" {
+                        double mass = 8
+                    }
+                }
+            }
+            def "Both" (
+                inherits = </Model>
+            )
+            {
+                over "Arm"
+                {
+                    double mass = 9
+                    double x.connect = </Both/Arm.mass>
+                }
+            }
+            """)
+        self.write("sub.usda", MODEL)
+        self.do("rename", "root.usda", "/Model/Arm.mass", "weight")
+        self.assertEqual(self.value("/Robot.weight"), 7)
+        self.assertEqual(self.value("/Both/Arm.weight"), 9)
+        self.assertNotIn("mass", self.text())
+        self.assertNotIn("mass", self.text("sub.usda"))
+        for text in ("rel to = </Robot.weight>", "x.connect = </Both/Arm.weight>",
+                     "double weight = 8"):
+            self.assertIn(text, self.text())
+
+    def test_a_property_that_a_dependent_has_elsewhere_refuses_the_whole_edit(self):
+        self.write("root.usda", """
+            def "Robot" (
+                references = [</Model/Arm>, </Other>]
+            )
+            {
+                double mass = 7
+            }
+            def "Other"
+            {
+                double mass = 3
+            }
+            """ + MODEL)
+        self.refused("edit.in-use", "rename", "root.usda", "/Model/Arm.mass", "weight")
+        self.write("root.usda", """
+            def "Robot" (
+                references = </Model/Arm>
+            )
+            {
+                double weight = 7
+            }
+            """ + MODEL)
+        self.refused("edit.property-exists", "rename", "root.usda", "/Model/Arm.mass", "weight")
+
     def test_opinions_over_inherits_specializes_and_payloads_follow(self):
         for arc in ("inherits", "specializes", "payload"):
             self.write("root.usda", f'''
@@ -410,6 +500,25 @@ class Removed(Case):
         self.assertIn("rel r = None", self.text())
         self.assertIn("double x.connect = None", self.text())
         self.assertNotIn("rel p", self.text())
+
+    def test_path_expressions_lose_what_goes(self):
+        self.write("root.usda", """
+            def "World"
+            {
+                pathExpression a = "/V//{isa:Mesh} + /W"
+                pathExpression b = "/W - /V/x"
+                pathExpression c = "/V"
+                rel r = </V> (
+                    doc = "kept"
+                )
+            }
+            def "V"
+            {
+            }
+            """)
+        self.do("remove", "root.usda", "/V")
+        for text in ('a = "/W"', 'b = "/W"', 'c = ""', 'doc = "kept"'):
+            self.assertIn(text, self.text())
 
     def test_relocates_of_what_goes_go(self):
         self.write("root.usda", '''

@@ -142,6 +142,23 @@ class EnergyFromNowhere(unittest.TestCase):
                     self.assertRegex(found["message"], r"unstable at [\d.e-]+ s")
 
 
+class ManyAtOnePlace(unittest.TestCase):
+    """Half a million pairs that touch would take gigabytes: refused before an engine starts."""
+
+    def test_is_refused_with_the_limit_and_a_collider(self):
+        apis = 'prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]'
+        spheres = "".join(f'    def Sphere "b{i}" ({apis}) {{}}\n' for i in range(1000))
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "heap.usda")
+            scene.write_text('#usda 1.0\ndef Xform "W"\n{\n' + spheres + "}\n")
+            for engine in ENGINES:
+                with self.subTest(engine=engine):
+                    done = run("sim", scene, "--engine", engine, "--duration", "0.01")
+                    self.assertEqual(done.returncode, 2)
+                    self.assertIn("(kStartPairs)", done.stderr)
+                    self.assertRegex(done.stderr, r"</W/b\d+>.*\[engine\.start-pairs\]")
+
+
 # A finger of 20 g on a drive that is stiff, strong and far from its target: for steps of 2 ms only
 # an integrator that takes positions implicitly holds it. The tip starts outside of its limit.
 FINGER = """#usda 1.0

@@ -141,6 +141,15 @@ class Bounds(Guarded):
             self.assertEqual(rules, ["guard.time"])
             self.assertIn("kGuardSeconds", message)
 
+    @unittest.skipIf(SANITIZED, "slower, and with the same bound on time")
+    def test_thousands_of_sensors_are_read_in_time(self):
+        """Each is looked up once, not by a walk over all."""
+        body = '<worldbody><body><site name="s"/><geom size="1"/></body></worldbody>'
+        sensors = '<accelerometer site="s"/>' * 30000
+        code, _, message = self.convert(
+            self.write("model.xml", mjcf(f"{body}<sensor>{sensors}</sensor>")))
+        self.assertEqual(code, 0, message)
+
     @unittest.skipIf(SANITIZED, "the worker's memory ends first")
     def test_answer(self):
         # 1,600 instances of 10,000 triangles: a small file, a large answer.

@@ -200,15 +200,88 @@ def masses(count):
     return [f"/W/b{i}.physics:mass=2" for i in range(count + 1)]
 
 
+def with_one_more(make):
+    """Where an empty scene is refused."""
+    return lambda count: make(count + 1)
+
+
+def bodies_of_one_name(count):
+    return HEAD + 'def Xform "W"\n{\n' + "".join(
+        f'    def Xform "x{i}"\n    {{\n        def Sphere "b" (prepend apiSchemas = [{BODY}])\n'
+        "        {\n        }\n    }\n" for i in range(count)) + "}\n"
+
+
+def bodies_far_below(count):
+    """As many transforms above bodies as there are bodies."""
+    head = "".join(f'def Xform "x{i}"\n{{\ndouble3 xformOp:translate = (1, 0, 0)\n'
+                   'uniform token[] xformOpOrder = ["xformOp:translate"]\n' for i in range(count))
+    bodies = "".join(f'def Sphere "b{i}" (prepend apiSchemas = [{BODY}])\n{{\n'
+                     f"double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+                     'uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+                     for i in range(count))
+    return HEAD + 'def Xform "W"\n{\n' + head + bodies + "}\n" * count + "}\n"
+
+
+def one_edge(count):
+    """A mesh whose triangles all share an edge."""
+    points = ", ".join(f"(0, {i}, {i * i})" for i in range(count))
+    corners = ", ".join(f"0, 1, {i + 2}" for i in range(count))
+    return (HEAD + 'def Xform "W"\n{\n    def Mesh "m" (prepend apiSchemas = '
+            '["PhysicsCollisionAPI"])\n    {\n'
+            f"        point3f[] points = [(0, 0, 0), (1, 0, 0), {points or '(0, 1, 0)'}]\n"
+            f"        int[] faceVertexCounts = [{', '.join(['3'] * count)}]\n"
+            f"        int[] faceVertexIndices = [{corners}]\n    }}\n}}\n")
+
+
+def bound_by_collections(count):
+    """As many bodies as collections, each of which includes the next one and binds a material."""
+    apis = ", ".join(['"MaterialBindingAPI"', *(f'"CollectionAPI:c{i}"' for i in range(count))])
+    rows = "".join(f"    rel collection:c{i}:includes = [</W/m>, </W.collection:c{i + 1}>]\n"
+                   f"    rel material:binding:collection:c{i} = [</W.collection:c{i}>, </W/m>]\n"
+                   for i in range(count))
+    bodies = "".join(f'    def Sphere "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n    }}\n'
+                     for i in range(count))
+    material = '    def Material "m" (prepend apiSchemas = ["PhysicsMaterialAPI"])\n    {\n    }\n'
+    return (HEAD + f'def Xform "W" (prepend apiSchemas = [{apis}])\n{{\n{rows}{material}'
+            f"{bodies}}}\n")
+
+
+def driven_from_one_body(count):
+    """Joints with a drive, all on one body."""
+    places = "".join(f'    def Sphere "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n'
+                     f"        double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+                     '        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }\n'
+                     for i in range(count + 1))
+    joints = "".join(
+        f'    def PhysicsRevoluteJoint "j{i}" (prepend apiSchemas = ["PhysicsDriveAPI:angular"])\n'
+        f"    {{\n        rel physics:body0 = </W/b0>\n        rel physics:body1 = </W/b{i}>\n"
+        f"        point3f physics:localPos0 = ({3 * i}, 0, 0)\n"
+        "        float drive:angular:physics:stiffness = 1\n    }\n"
+        for i in range(1, count + 1))
+    return HEAD + 'def Xform "W"\n{\n' + places + joints + "}\n"
+
+
+def missing_packages(count):
+    meshes = "".join(f'<visual><geometry><mesh filename="package://p{i}/m.stl"/></geometry>'
+                     "</visual>\n" for i in range(count))
+    return f'<robot name="r"><link name="b">\n{meshes}</link></robot>\n'
+
+
+def motors(count):
+    return ('<mujoco>\n<worldbody><body name="b"><joint name="j"/><geom size="1"/></body>'
+            '</worldbody>\n<actuator>' + '<motor joint="j"/>\n' * count
+            + "</actuator></mujoco>\n")
+
+
 class Kind:
     """`behind` are the words behind the scene's name, or a function that makes them of a size."""
 
-    def __init__(self, name, make, size, verb, behind=(), most=2.3):
+    def __init__(self, name, make, size, verb, behind=(), most=2.3, file="scene.usda"):
         self.name, self.make, self.size, self.verb = name, make, size, verb
-        self.behind, self.most = behind, most
+        self.behind, self.most, self.file = behind, most, file
 
     def words(self, count):
-        return [self.verb, "scene.usda",
+        return [self.verb, self.file,
                 *(self.behind(count) if callable(self.behind) else self.behind)]
 
 
@@ -235,6 +308,23 @@ KINDS = (
     Kind("findings", bodies_with_faults, 100, "check"),
     Kind("assignments of one edit", plain, 100, "set", assignments),
     Kind("masses of a chain", chain, 100, "set", masses),
+    Kind("pairs with the root, as SRDF", with_one_more(pairs_with_the_root), 100, "convert",
+         ("out.srdf",), 4.2),
+    Kind("pairs with the root, in another name", pairs_with_the_root, 100, "rename",
+         ("/W", "V", "--dry-run"), 4.2),
+    Kind("bodies of one name, as URDF", with_one_more(bodies_of_one_name), 300, "convert",
+         ("out.urdf",)),
+    Kind("bodies far below, baked", with_one_more(bodies_far_below), 60, "bake",
+         ("--duration", "0.004", "-o", "out.usda"), 3.2),
+    Kind("triangles at one edge, on a page", one_edge, 10000, "report",
+         ("--duration", "0", "-o", "out.html")),
+    # Collections times bodies, and drives times the bodies that each moves.
+    Kind("bindings of collections", bound_by_collections, 60, "physics", (), 4.6),
+    Kind("drives on one body", driven_from_one_body, 150, "sim",
+         ("--engine", "jolt", "--duration", "0.004"), 3.3),
+    Kind("packages that are missing", missing_packages, 200, "convert", ("out.usda",),
+         file="scene.urdf"),
+    Kind("actuators, in a folder", motors, 300, "convert", ("folder",), file="scene.xml"),
     Kind("filtered pairs of a chain", chain, 100, "pairs", pairs_beside_neighbours),
 )
 COLLECTED = re.compile(r"I +refs: +([\d,]+)")
@@ -276,11 +366,11 @@ class Counter:
 
     def at(self, kind, count):
         words = kind.words(count)
-        key = tuple(words[:1] + words[2:])
+        key = tuple(words)
         if count == 0 and key in self.empty:
             return self.empty[key]
         with tempfile.TemporaryDirectory() as folder:
-            pathlib.Path(folder, "scene.usda").write_text(kind.make(count), encoding="utf-8")
+            pathlib.Path(folder, kind.file).write_text(kind.make(count), encoding="utf-8")
             found = instructions(self.program, folder, words)
         if count == 0:
             self.empty[key] = found

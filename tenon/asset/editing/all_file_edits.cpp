@@ -37,7 +37,7 @@ Result<std::vector<Path>> edit_specs(edit::LayerEditor& editor, Path site, const
     case Kind::RenamePrim:
       return rename_with_texts(editor, site, Token(edit.value));
     case Kind::RenameProperty:
-      return rename_property_specs(editor, site.property(edit.object.name()), Token(edit.value));
+      return rename_property_specs(editor, {site}, edit.object.name(), Token(edit.value));
     default:
       break;
   }

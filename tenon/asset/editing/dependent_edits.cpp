@@ -37,6 +37,33 @@ bool is_there(const AllFiles& files, Path prim) {
          std::any_of(files.other_variants.begin(), files.other_variants.end(), has);
 }
 
+bool has_opinion(const AllFiles& files, Path property) {
+  const auto has = [&](const auto& stage) {
+    const stage::Prim prim = stage->prim(property.prim());
+    return prim && !prim.attribute(property.name()).spec_stack().empty();
+  };
+  return std::any_of(files.stages.begin(), files.stages.end(), has) ||
+         std::any_of(files.other_variants.begin(), files.other_variants.end(), has);
+}
+
+/// A dependent of a prim whose property is renamed may have one of that name itself.
+Result<void> check_property_names(const AllFiles& files, const stage::Dependents& dependents,
+                                  const AssetEdit& edit) {
+  for (const auto& [prim, sites] : dependents.prims) {
+    const Path to = prim.property(Token(edit.value));
+    if (has_opinion(files, to)) {
+      Message message = "<" + prim.str() + "> is composed of <" + edit.object.prim().str() +
+                        ">, and <" + to.str() + "> is there already";
+      message.about(prim, RelatedRole::Prim);
+      return Error(ErrorCode::Invalid, message)
+          .with_prim(edit.object.prim().str())
+          .with_rule("edit.property-exists")
+          .with_fix("choose another name");
+    }
+  }
+  return {};
+}
+
 Result<void> check_names(const AllFiles& files, const stage::Dependents& dependents,
                          const AssetEdit& edit) {
   for (const auto& [prim, sites] : dependents.prims) {
@@ -78,6 +105,11 @@ EditedPlace place_of(const AssetEdit& edit, const std::string& layer, Path chang
   place.file = layer;
   place.spec = changed;
   place.why = "it depends on <" + edit.object.str() + ">";
+  if (edit.kind == Kind::RenameProperty) {
+    place.before = edit.object.name().str();
+    place.after = edit.value;
+    return place;
+  }
   const bool renames = edit.kind == Kind::RenamePrim;
   if (changed.is_prim() && (!renames || changed.name() == Token(edit.value))) {
     const Path before = renames ? changed.parent().child(edit.object.name()) : changed;
@@ -142,9 +174,18 @@ Result<void> edit_layer(const AllFiles& files, const LayerSites& sites, const As
     all.insert(all.end(), texts.begin(), texts.end());
     return all;
   };
-  return edit.kind == Kind::RenamePrim
-             ? edit_one(files, sites.layer, *sites.paths.begin(), edit, places, rename)
-             : edit_one(files, sites.layer, *sites.paths.begin(), edit, places, remove);
+  const auto rename_property = [&](edit::LayerEditor& specs) {
+    return rename_property_specs(specs, mentioned, edit.object.name(), Token(edit.value));
+  };
+  const Path first = *sites.paths.begin();
+  switch (edit.kind) {
+    case Kind::RenamePrim:
+      return edit_one(files, sites.layer, first, edit, places, rename);
+    case Kind::RenameProperty:
+      return edit_one(files, sites.layer, first, edit, places, rename_property);
+    default:
+      return edit_one(files, sites.layer, first, edit, places, remove);
+  }
 }
 
 Result<void> rename_in_arcs(const AllFiles& files, const stage::Dependents& dependents,
@@ -159,24 +200,48 @@ Result<void> rename_in_arcs(const AllFiles& files, const stage::Dependents& depe
   return {};
 }
 
+/// An opinion that stays would be split from those that have the new name.
+Result<void> check_property_followed(const stage::Stage& stage, Path property) {
+  const stage::Prim prim = stage.prim(property.prim());
+  if (!prim) {
+    return {};
+  }
+  const auto sources = prim.attribute(property.name()).spec_stack();
+  if (sources.empty()) {
+    return {};
+  }
+  Message message = "<" + property.str() + "> depends on the property and is still there: <" +
+                    sources.front().path.str() + "> of " +
+                    shown_path(sources.front().layer->identifier()) + " defines it too";
+  message.about(property.prim(), RelatedRole::Prim);
+  return Error(ErrorCode::Invalid, message)
+      .in_file(sources.front().layer->identifier())
+      .with_prim(property.prim().str())
+      .with_rule("edit.in-use")
+      .with_fix("rename that one too, or remove what is said about the dependent property, first");
+}
+
 }  // namespace
 
 Result<stage::Dependents> dependents_in(const AllFiles& files, const PrimSites& sites,
                                         const AssetEdit& edit) {
   stage::Dependents all;
-  if (edit.kind != Kind::RenamePrim && edit.kind != Kind::RemovePrim) {
+  const bool of_property = edit.kind == Kind::RenameProperty;
+  if (edit.kind != Kind::RenamePrim && edit.kind != Kind::RemovePrim && !of_property) {
     return all;
   }
-  const bool renames = edit.kind == Kind::RenamePrim;
+  const auto what = of_property ? stage::DependentOn::Properties : stage::DependentOn::Name;
   for (const auto* stages : {&files.stages, &files.other_variants}) {
     for (const auto& stage : *stages) {
-      add(stage::dependents_of(*stage, sites), all);
+      add(stage::dependents_of(*stage, sites, what), all);
     }
   }
   std::erase_if(all.prims, [&](const auto& prim) {
-    return prim.first == edit.object || !is_there(files, prim.first);
+    return prim.first == edit.object.prim() || !is_there(files, prim.first);
   });
-  TENON_CHECK(renames ? check_names(files, all, edit) : check_no_arcs(all));
+  TENON_CHECK(of_property                     ? check_property_names(files, all, edit)
+              : edit.kind == Kind::RenamePrim ? check_names(files, all, edit)
+                                              : check_no_arcs(all));
   return all;
 }
 
@@ -194,7 +259,8 @@ Result<EditedSpecs> edit_dependents(const AllFiles& files, const stage::Dependen
   for (const auto& [prim, its_sites] : dependents.prims) {
     if (std::any_of(its_sites.begin(), its_sites.end(),
                     [&](const auto& site) { return changed.contains(site); })) {
-      edited.dependents.insert(prim);
+      edited.dependents.insert(edit.kind == Kind::RenameProperty ? prim.property(edit.object.name())
+                                                                 : prim);
     }
   }
   if (edit.kind == Kind::RenamePrim) {
@@ -205,6 +271,10 @@ Result<EditedSpecs> edit_dependents(const AllFiles& files, const stage::Dependen
 
 Result<void> check_dependents_followed(const stage::Stage& stage, const std::set<Path>& prims) {
   for (const Path prim : prims) {
+    if (prim.is_property()) {
+      TENON_CHECK(check_property_followed(stage, prim));
+      continue;
+    }
     const auto sources = stage::opinion_sources(stage, prim);
     if (!stage.prim(prim) || sources.empty()) {
       continue;

@@ -14,6 +14,7 @@
 #include "tenon/asset/editing/edit_refusals.h"
 #include "tenon/edit/default_prim.h"
 #include "tenon/layer/arcs.h"
+#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon {
@@ -90,6 +91,19 @@ bool drop_from(edit::LayerEditor& editor, Path property, Token field, Path prim)
   return changed;
 }
 
+/// The same of path expressions: what names the prim matches nothing.
+bool drop_from_expressions(edit::LayerEditor& editor, Path property, Path prim) {
+  const layer::Spec* spec = editor.layer().find(property);
+  const layer::Value* found = spec == nullptr ? nullptr : spec->find(fields::default_value);
+  layer::Value value = found == nullptr ? layer::Value() : *found;
+  const bool changed = layer::map_paths(
+      value, property.prim(), [&](Path path) { return path.has_prefix(prim) ? Path() : path; });
+  if (changed) {
+    editor.set(property, fields::default_value, std::move(value));
+  }
+  return changed;
+}
+
 /// What the layer itself says that names the prim: its default prim, its relocates. What was
 /// relocated there does not come back to where it was.
 bool drop_from_layer(edit::LayerEditor& editor, Path prim) {
@@ -146,11 +160,17 @@ bool rename_in_list(edit::LayerEditor& editor, Path spec, Token field,
   return changed;
 }
 
-/// A property that was there for its targets and has none now.
+/// A property that was there for its targets and has none now, and no metadata either.
 bool is_done(const edit::LayerEditor& editor, Path property) {
   const layer::Spec* spec = editor.layer().find(property);
-  return spec != nullptr && spec->kind == layer::SpecKind::Relationship &&
-         !spec->has(fields::targetPaths);
+  if (spec == nullptr || spec->kind != layer::SpecKind::Relationship) {
+    return false;
+  }
+  const auto is_of_declaration = [](const layer::Field& field) {
+    return field.name == fields::custom || field.name == fields::variability;
+  };
+  const auto& all = spec->fields();
+  return std::all_of(all.begin(), all.end(), is_of_declaration);
 }
 
 /// Looks which of some prims paths are at or below.
@@ -166,8 +186,13 @@ class Mentions {
     }
   }
 
-  void note_value(const layer::Value& value) {
+  void note_value(Path spec, const layer::Value& value) {
     note_list<Path>(value);
+    layer::Value copy = value;
+    layer::map_paths(copy, spec.prim(), [this](Path path) {
+      note(path);
+      return path;
+    });
     note_list<layer::Reference>(value);
     note_list<layer::Payload>(value);
     if (const auto* relocates = value.get<layer::Relocates>()) {
@@ -211,7 +236,7 @@ std::set<Path> mentioned_prims(const layer::Layer& layer, const std::set<Path>& 
   for (const layer::Layer::Entry& entry : layer.entries()) {
     mentions.note(entry.path.strip_variants());
     for (const layer::Field& field : entry.spec.fields()) {
-      mentions.note_value(field.value);
+      mentions.note_value(entry.path, field.value);
     }
   }
   return mentions.found();
@@ -235,7 +260,8 @@ Result<std::vector<Path>> remove_prim_specs(edit::LayerEditor& editor, Path prim
   for (const Path property : properties) {
     const bool targets = drop_from(editor, property, fields::targetPaths, prim);
     const bool connections = drop_from(editor, property, fields::connectionPaths, prim);
-    if (targets || connections) {
+    const bool expressions = drop_from_expressions(editor, property, prim);
+    if (targets || connections || expressions) {
       changed.push_back(property);
     }
     if (targets && is_done(editor, property)) {
@@ -285,23 +311,26 @@ std::vector<Path> rename_in_asset_arcs(edit::LayerEditor& editor, const stage::D
   return changed;
 }
 
-Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path property,
-                                                Token name) {
+Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor,
+                                                const std::set<Path>& prims, Token name,
+                                                Token now) {
   std::vector<Path> specs;  // those in variants, too
   for (const layer::Layer::Entry& entry : editor.layer().entries()) {
-    if (entry.path.is_property() && entry.path.name() == property.name() &&
-        entry.path.parent().strip_variants() == property.prim()) {
+    if (entry.path.is_property() && entry.path.name() == name &&
+        prims.contains(entry.path.parent().strip_variants())) {
       specs.push_back(entry.path);
     }
   }
   std::vector<Path> changed;
   for (const Path spec : specs) {
-    TENON_CHECK(editor.rename_property(spec, name));
-    changed.push_back(spec.parent().property(name));
+    TENON_CHECK(editor.rename_property(spec, now));
+    changed.push_back(spec.parent().property(now));
   }
-  if (!changed.empty()) {
-    editor.retarget(property, property.prim().property(name));
+  std::map<Path, Path> moves;
+  for (const Path prim : prims) {
+    moves.emplace(prim.property(name), prim.property(now));
   }
+  editor.retarget(moves);
   return changed;
 }
 

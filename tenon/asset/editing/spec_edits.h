@@ -35,9 +35,10 @@ Result<std::vector<Path>> rename_prim_specs(edit::LayerEditor& editor, const std
 std::vector<Path> rename_in_asset_arcs(edit::LayerEditor& editor, const stage::Dependents::Arc& arc,
                                        Token name);
 
-/// Renames the specs of a property, and the property in all targets and connections of the layer.
-Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor, Path property,
-                                                Token name);
+/// Renames the specs of a property of some prims, and the property in all targets, connections and
+/// path expressions of the layer.
+Result<std::vector<Path>> rename_property_specs(edit::LayerEditor& editor,
+                                                const std::set<Path>& prims, Token name, Token now);
 
 /// Removes a variant with all in it, and the set when it was its last one.
 Result<std::vector<Path>> remove_variant_specs(edit::LayerEditor& editor, Path prim,

@@ -21,7 +21,7 @@ struct ExportedCfg {
 /// A Python file for Isaac Lab or mjlab (python_cfg.h). `file` is the asset or the MJCF model that
 /// it opens, relative to it, `variant` that of the set "Physics", empty where the asset's own
 /// selection counts. What it cannot say goes to `diagnostics` as "isaaclab.left-out" or
-/// "mjlab.left-out", and stands at the top of the file.
+/// "mjlab.left-out", and is listed at the top of the file.
 ExportedCfg export_cfg(const stage::Stage& stage, const scene::PhysicsScene& scene,
                        DescriptionFormat format, const std::string& file,
                        const std::string& variant, Diagnostics& diagnostics);

@@ -41,10 +41,11 @@ Result<ExportedUrdf> export_sdf(const stage::Stage& stage, const std::string& fo
       physics::read_physics(stage, read_options(), diagnostics, &provenance);
   TENON_TRY(robot::RobotModel model,
             describe::describe_robot(stage, scene, diagnostics, describe::Format::Sdf));
-  const std::size_t pairs = model.self_collision ? kept_apart(scene, provenance).size() : 0;
+  const KeptApart apart = model.self_collision ? kept_apart(scene, provenance) : KeptApart{};
+  const std::size_t pairs = apart.pairs.size();
   if (pairs > 0) {
     diagnostics.add(file_finding(Severity::Warning, "sdf.left-out",
-                                 std::to_string(pairs) +
+                                 (apart.is_cut ? "more than " : "") + std::to_string(pairs) +
                                      (pairs == 1 ? " pair of links is" : " pairs of links are") +
                                      " kept apart, which SDF does not support; dropped",
                                  ""));

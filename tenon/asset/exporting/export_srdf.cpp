@@ -150,8 +150,18 @@ class SrdfExport {
         write_pair(*joint.body0, *joint.body1, "Adjacent");
       }
     }
-    for (const auto& [a, b] : kept_apart(scene_, provenance_)) {
+    const KeptApart apart = kept_apart(scene_, provenance_);
+    for (const auto& [a, b] : apart.pairs) {
       write_pair(a, b, "User");
+    }
+    if (apart.is_cut) {
+      Diagnostic finding;
+      finding.severity = Severity::Warning;
+      finding.rule = kSrdfRule;
+      finding.message = "filters keep more pairs of links apart than are written, " +
+                        std::to_string(apart.pairs.size()) + " (kDisabledPairs, kDisabledPairWork)";
+      finding.fix = "turn the self-collision of the articulation off";
+      diagnostics_.add(std::move(finding));
     }
   }
 

@@ -19,7 +19,7 @@ struct ExportedSrdf {
 
 /// What MoveIt needs beside the URDF that export_urdf writes: a group "all" of the joints with one
 /// axis, the start and the named poses of the asset as its states, passive joints, how the root
-/// stands in the world, and pairs of links that joints or filters keep apart. Pairs that never
+/// is held in the world, and pairs of links that joints or filters keep apart. Pairs that never
 /// touch are found by `pairs`. What it cannot name goes to `diagnostics` as "srdf.left-out".
 /// Errors: those of describe_robot.
 Result<ExportedSrdf> export_srdf(const stage::Stage& stage, Diagnostics& diagnostics);

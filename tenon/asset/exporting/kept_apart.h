@@ -10,10 +10,13 @@
 
 namespace tenon {
 
+struct KeptApart {
+  std::vector<std::pair<scene::Index, scene::Index>> pairs;  ///< ascending, the lower index first
+  bool is_cut = false;  ///< there are more: limits::kDisabledPairs or kDisabledPairWork
+};
+
 /// Pairs of bodies that filtered pairs or collision groups of the asset keep apart, joints and the
-/// self-collision of articulations aside: ascending, the lower index first. Bodies without
-/// colliders are in none. It looks at limits::kListedPairs pairs of colliders at most.
-std::vector<std::pair<scene::Index, scene::Index>> kept_apart(
-    const scene::PhysicsScene& scene, const physics::Provenance& provenance);
+/// self-collision of articulations aside. Bodies without enabled colliders are in none.
+KeptApart kept_apart(const scene::PhysicsScene& scene, const physics::Provenance& provenance);
 
 }  // namespace tenon

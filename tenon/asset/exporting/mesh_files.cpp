@@ -43,7 +43,7 @@ std::optional<T> number_in(std::string_view word) {
                                                                   : std::nullopt;
 }
 
-/// One <mesh>: what stands in its arrays, and all other attributes.
+/// One <mesh>: the contents of its arrays, and all other attributes.
 struct MeshElement {
   Words points;
   Words faces;

@@ -7,7 +7,7 @@
 
 namespace tenon {
 
-/// MJCF whose meshes are files: those that stand in `text` as "vertex" (and "face", "texcoord")
+/// MJCF whose meshes are files: those that `text` holds as "vertex" (and "face", "texcoord")
 /// become OBJ files in `folder`, a name relative to the text, and are added to `files` by name. The
 /// hull of one without faces is its faces. Meshes with other arrays stay, and so do those without
 /// volume that have no faces.

@@ -219,6 +219,9 @@ class PairList {
       return;
     }
     pair.filters = physics::why_apart(scene_, provenance_, pair.collider_a, pair.collider_b);
+    for (const physics::PairReason& reason : pair.filters) {
+      work_ += reason.why.size();
+    }
     const bool by_pairs_alone =
         !pair.filters.empty() &&
         std::all_of(pair.filters.begin(), pair.filters.end(),

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/pairs/pairs_json.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "tenon/base/limits/pair_limits.h"
 
 namespace tenon {
 namespace {
@@ -67,11 +70,15 @@ Json pairs_json(const PairsOfAsset& pairs) {
       postures.push_back(pair.posture);
     }
   }
+  // A posture is told with each of its pairs.
+  const std::size_t joint_count = std::max<std::size_t>(1, pairs.scene->joints.size());
+  postures.resize(std::min(postures.size(), limits::kPostureValues / joint_count));
   const std::vector<JointCoordinates> joints =
       posture_joints(*pairs.scene, pairs.options.seed, postures);
   Json list = Json::array();
   for (std::size_t i = 0; i < listed.size(); ++i) {
-    list.push_back(pair_json(pairs, *listed[i], joints[i]));
+    list.push_back(
+        pair_json(pairs, *listed[i], i < joints.size() ? joints[i] : JointCoordinates()));
   }
   Json shapes = Json::array();
   for (const engines::NotMapped& shape : pairs.found.shapes) {

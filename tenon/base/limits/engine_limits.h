@@ -12,4 +12,9 @@ inline constexpr std::size_t kModelGeoms = 100'000;          ///< shapes, pieces
 inline constexpr std::size_t kModelMeshPoints = 30'000'000;  ///< corners of all their meshes
 inline constexpr std::size_t kEnvironments = 1'000'000;      ///< simulations of one scene
 
+/// Pairs of colliders whose boxes overlap at the start, and more for each collider.
+inline constexpr std::size_t kStartPairs = 100'000;
+inline constexpr std::size_t kStartPairsPerCollider = 30;
+inline constexpr std::size_t kOverlapFindings = 10'000;  ///< of colliders that overlap at the start
+
 }  // namespace tenon::limits

@@ -229,22 +229,55 @@ bool make_canonical(PathExpression& expression, Path anchor) {
   return true;
 }
 
-}  // namespace
+bool map_paths(PathExpression& expression, Path anchor, const PathExpressionTree::MapPath& map) {
+  Result<PathExpressionTree> tree = PathExpressionTree::parse(expression.text);
+  if (!tree) {
+    return false;
+  }
+  tree->make_absolute(anchor);
+  std::string now = tree->mapped(map).text();
+  const bool changed = now != tree->text();
+  if (changed) {
+    expression.text = std::move(now);
+  }
+  return changed;
+}
 
-bool make_canonical(Value& value, Path anchor) {
-  bool ok = true;
+/// Whether `edit` was true of all expressions, and of any.
+struct Outcome {
+  bool all = true;
+  bool any = false;
+};
+
+template <class Edit>
+Outcome edit_each(Value& value, const Edit& edit) {
+  Outcome outcome;
+  const auto note = [&](bool one) {
+    outcome.all = outcome.all && one;
+    outcome.any = outcome.any || one;
+  };
   if (const auto* one = value.get<PathExpression>()) {
     PathExpression copy = *one;
-    ok = make_canonical(copy, anchor);
+    note(edit(copy));
     value = std::move(copy);
   } else if (const auto* several = value.get<Array<PathExpression>>()) {
     Array<PathExpression> copy = *several;
     for (PathExpression& expression : copy) {
-      ok = make_canonical(expression, anchor) && ok;
+      note(edit(expression));
     }
     value = std::move(copy);
   }
-  return ok;
+  return outcome;
+}
+
+}  // namespace
+
+bool make_canonical(Value& value, Path anchor) {
+  return edit_each(value, [&](PathExpression& one) { return make_canonical(one, anchor); }).all;
+}
+
+bool map_paths(Value& value, Path anchor, const PathExpressionTree::MapPath& map) {
+  return edit_each(value, [&](PathExpression& one) { return map_paths(one, anchor, map); }).any;
 }
 
 // Reading

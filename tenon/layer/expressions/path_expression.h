@@ -99,4 +99,8 @@ class PathExpressionTree {
 /// nothing (""), and the result is false. With an `anchor` relative paths are taken from there.
 bool make_canonical(Value& value, Path anchor = {});
 
+/// The same with every path mapped, relative ones from `anchor`. An expression that is malformed,
+/// or whose paths all stay, keeps its text. False where nothing changed.
+bool map_paths(Value& value, Path anchor, const PathExpressionTree::MapPath& map);
+
 }  // namespace tenon::layer

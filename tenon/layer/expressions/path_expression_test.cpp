@@ -113,5 +113,23 @@ TEST(PathExpression, PathsAreMadeAbsoluteAndMapped) {
   EXPECT_EQ(tree.mapped(map).text(), "/R/a /R/{x}");
 }
 
+TEST(PathExpression, PathsOfAValueAreMapped) {
+  const auto map = [](Path path) {
+    return path.has_prefix(Path::from("/A/gone"))
+               ? Path()
+               : path.replace_prefix(Path::from("/A"), Path::from("/R"));
+  };
+  Value one(PathExpression{"b //c + /A/gone//"});
+  EXPECT_TRUE(map_paths(one, Path::from("/A"), map));
+  EXPECT_EQ(one.get<PathExpression>()->text, "/R/b //c");
+  Value stays(PathExpression{"( /B )"});
+  EXPECT_FALSE(map_paths(stays, Path::from("/A"), map));
+  EXPECT_EQ(stays.get<PathExpression>()->text, "( /B )");
+  Value several(Array<PathExpression>{{"/A"}, {"/ +"}});
+  EXPECT_TRUE(map_paths(several, Path::from("/A"), map));
+  EXPECT_EQ((*several.get<Array<PathExpression>>())[0].text, "/R");
+  EXPECT_EQ((*several.get<Array<PathExpression>>())[1].text, "/ +");
+}
+
 }  // namespace
 }  // namespace tenon::layer

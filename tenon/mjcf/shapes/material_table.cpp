@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "tenon/base/text/counted.h"
 #include "tenon/mjcf/shapes/textures.h"
 
 namespace tenon::mjcf {
@@ -67,7 +68,7 @@ void report_lines(MjcfSource& source, const std::string& what, const std::string
                   const std::vector<std::uint32_t>& lines) {
   if (!lines.empty()) {
     source.left_out(
-        what + " of " + std::to_string(lines.size()) + " materials " + fate + lines_text(lines),
+        what + " of " + counted(lines.size(), "material") + " " + fate + lines_text(lines),
         lines.front());
   }
 }

@@ -92,8 +92,9 @@ class NameTable {
     const auto is_taken = [&](const std::string& kind) {
       return taken_.contains({kind, escaped_name(name)}) || (kind == "body" && name == "world");
     };
-    for (int i = 1; std::any_of(kinds.begin(), kinds.end(), is_taken); ++i) {
-      name = wanted + "_" + std::to_string(i);
+    std::size_t& last = last_[{wanted, kinds}];
+    while (std::any_of(kinds.begin(), kinds.end(), is_taken)) {
+      name = wanted + "_" + std::to_string(++last);
     }
     for (const std::string& kind : kinds) {
       taken_.emplace(kind, escaped_name(name));
@@ -106,6 +107,8 @@ class NameTable {
   std::map<std::pair<std::string, std::string>, int> parts_;            // by kind and prim
   std::vector<std::string> order_;
   std::set<std::pair<std::string, std::string>> taken_;  // kind and name
+  // The number behind a name that things of these kinds want.
+  std::map<std::pair<std::string, std::vector<std::string>>, std::size_t> last_;
   std::map<std::string, std::string, std::less<>> renamed_;
 };
 

@@ -116,8 +116,11 @@ class Reasons {
     }
     const std::vector<Index>& own = scene::sets_of(scene_.filter, a_);
     const std::vector<Index>& other = scene::sets_of(scene_.filter, b_);
+    const auto has = [](const std::vector<Index>& sets, Index set) {
+      return std::binary_search(sets.begin(), sets.end(), set);
+    };
     for (const PairProvenance& one : provenance.pairs) {
-      if (!scene::are_apart(own, other, {{one.a, one.b}})) {
+      if (!(has(own, one.a) && has(other, one.b)) && !(has(own, one.b) && has(other, one.a))) {
         continue;
       }
       const std::string name = "<" + one.prim.str() + ">";

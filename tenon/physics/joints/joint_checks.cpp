@@ -81,10 +81,12 @@ void check_limits(const ReadState& state, const stage::Prim& prim, const Joint& 
   const std::string bound = joint.kind == JointKind::Distance
                                 ? (below ? "minDistance" : "maxDistance")
                                 : (below ? "lower limit" : "upper limit");
+  const std::string degrees = angular ? " degrees" : "";
   state.report(prim, Severity::Warning, "joint.outside-limit",
                about_bodies(state.scene, joint,
-                            "the initial " + what + " " + text(at / unit) + " violates the " +
-                                bound + " " + text((below ? joint.lower : joint.upper) / unit)),
+                            "the " + what + " at the start, " + text(at / unit) + degrees +
+                                ", is " + (below ? "below" : "above") + " the " + bound + ", " +
+                                text((below ? joint.lower : joint.upper) / unit) + degrees),
                "move the bodies or widen the limit");
 }
 

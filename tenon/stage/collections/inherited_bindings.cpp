@@ -29,7 +29,7 @@ MaterialBinding InheritedBindings::find(const Prim& prim) {
   }
   const Found& found = found_[number_of(prim, number)];
   if (found.has_collections) {
-    return find_material_binding(prim, purpose_);
+    return find_material_binding(prim, purpose_, of_collections_);
   }
   const bool bound = !found.for_purpose.binding.material.empty();
   return (bound ? found.for_purpose : found.for_all).binding;

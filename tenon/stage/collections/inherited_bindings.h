@@ -37,6 +37,7 @@ class InheritedBindings {
 
   Token purpose_;
   TargetMemo& targets_;
+  CollectionBindings of_collections_;
   std::vector<Found> found_;                           // the first is that of no binding at all
   std::unordered_map<Path, std::uint32_t> number_at_;  // of found_, for prims with others below
   std::vector<Prim> chain_;

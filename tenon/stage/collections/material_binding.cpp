@@ -17,6 +17,7 @@ namespace tenon::stage {
 namespace {
 
 constexpr std::string_view kBinding = "material:binding";
+constexpr std::string_view kCollection = "collection:";
 constexpr std::string_view kCollectionBinding = "material:binding:collection:";
 
 bool is_material(const Prim& prim, Path path) {
@@ -24,27 +25,37 @@ bool is_material(const Prim& prim, Path path) {
   return path.is_prim() && prim.prim_at(path).is_a(material);
 }
 
+CollectionBindings::Binding read_binding(const Prim& at, Token name) {
+  const Relationship relationship = at.relationship(name);
+  CollectionBindings::Binding binding{name, is_stronger(relationship), {}, {}, {}};
+  const std::vector<Path> targets = relationship.targets();
+  if (targets.size() == 2) {
+    const bool first = targets[0].is_property();
+    const Path collection = targets[first ? 0 : 1];
+    const Path material = targets[first ? 1 : 0];
+    if (collection.is_property() && collection.name().view().starts_with(kCollection) &&
+        is_material(at, material)) {
+      binding.collection = collection;
+      binding.material = material;
+    }
+  }
+  return binding;
+}
+
 // The material of a collection binding of `at` when its collection contains `path`; a collection
 // that is too large goes to `cut`.
-std::optional<Path> collection_material(const Prim& at, Token name, Path path, Path& cut) {
-  const std::vector<Path> targets = at.relationship(name).targets();
-  if (targets.size() != 2) {
+std::optional<Path> collection_material(const Prim& at, CollectionBindings::Binding& binding,
+                                        Path path, Path& cut) {
+  if (binding.material.empty()) {
     return std::nullopt;
   }
-  const bool first = targets[0].is_property();
-  const Path collection = targets[first ? 0 : 1];
-  const Path material = targets[first ? 1 : 0];
-  static constexpr std::string_view kBindingPrefix = "collection:";
-  const std::string_view full = collection.name().view();
-  if (!collection.is_property() || !full.starts_with(kBindingPrefix) ||
-      !is_material(at, material)) {
-    return std::nullopt;
+  if (!binding.members) {
+    const Token name(binding.collection.name().view().substr(kCollection.size()));
+    binding.members = Collection::read(at.prim_at(binding.collection.parent()), name);
   }
-  const Prim owner = at.prim_at(collection.parent());
-  const Collection members = Collection::read(owner, Token(full.substr(kBindingPrefix.size())));
-  const bool contained = members.contains(path);
-  cut = members.is_cut() ? collection : cut;
-  return contained ? std::optional(material) : std::nullopt;
+  const bool contained = binding.members->contains(path);
+  cut = binding.members->is_cut() ? binding.collection : cut;
+  return contained ? std::optional(binding.material) : std::nullopt;
 }
 
 // "material:binding:collection:name" or, for a purpose, "...:collection:purpose:name".
@@ -62,7 +73,8 @@ bool is_collection_binding(std::string_view name, Token purpose) {
 struct Search {
   const Prim& prim;
   Token purpose;
-  MaterialBinding found;
+  CollectionBindings& known;
+  MaterialBinding found{};
 
   void take(const Prim& at, const Relationship& binding, Path material) {
     const Path cut = found.cut_collection;
@@ -81,21 +93,14 @@ struct Search {
         direct_here = true;
       }
     }
-    const std::vector<Token>& names = at.unordered_property_names();
-    if (std::none_of(names.begin(), names.end(), is_any_collection_binding)) {
-      return;
-    }
-    for (const Token property : at.authored_property_names()) {
-      if (!is_collection_binding(property.view(), purpose)) {
+    for (CollectionBindings::Binding& one : known.of(at)) {
+      if (!is_collection_binding(one.name.view(), purpose) ||
+          (!found.material.empty() && !direct_here && !one.is_stronger)) {
         continue;
       }
-      const Relationship binding = at.relationship(property);
-      if (!found.material.empty() && !direct_here && !is_stronger(binding)) {
-        continue;
-      }
-      const auto material = collection_material(at, property, prim.path(), found.cut_collection);
+      const auto material = collection_material(at, one, prim.path(), found.cut_collection);
       if (material) {
-        take(at, binding, *material);
+        take(at, at.relationship(one.name), *material);
         return;
       }
     }
@@ -140,16 +145,38 @@ MaterialBinding made_binding(const Prim& at, const Relationship& binding, Path m
   return {material, binding.path(), !at.has_api(api), {}};
 }
 
-MaterialBinding find_material_binding(const Prim& prim, Token purpose) {
-  MaterialBinding binding = Search{prim, purpose, {}}.run();
+std::vector<CollectionBindings::Binding>& CollectionBindings::of(const Prim& prim) {
+  const auto [at, is_new] = known_.try_emplace(prim.path());
+  const std::vector<Token>& names = prim.unordered_property_names();
+  if (is_new && std::any_of(names.begin(), names.end(), is_any_collection_binding)) {
+    for (const Token name : prim.authored_property_names()) {
+      if (is_any_collection_binding(name)) {
+        at->second.push_back(read_binding(prim, name));
+      }
+    }
+  }
+  return at->second;
+}
+
+MaterialBinding find_material_binding(const Prim& prim, Token purpose, CollectionBindings& known) {
+  MaterialBinding binding = Search{prim, purpose, known}.run();
   if (!binding.material.empty() || purpose.empty()) {
     return binding;
   }
-  MaterialBinding general = Search{prim, Token(), {}}.run();
+  MaterialBinding general = Search{prim, Token(), known}.run();
   if (general.cut_collection.empty()) {
     general.cut_collection = binding.cut_collection;
   }
   return general;
+}
+
+MaterialBinding find_material_binding(const Prim& prim, Token purpose) {
+  CollectionBindings known;
+  return find_material_binding(prim, purpose, known);
+}
+
+Path bound_material(const Prim& prim, Token purpose, CollectionBindings& known) {
+  return find_material_binding(prim, purpose, known).material;
 }
 
 Path bound_material(const Prim& prim, Token purpose) {

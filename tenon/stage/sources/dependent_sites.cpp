@@ -31,8 +31,8 @@ bool ends_here(const Node& node) {
 
 class DependentSearch {
  public:
-  DependentSearch(const Stage& stage, const std::map<std::string, Path>& sites)
-      : stage_(stage), sites_(sites) {}
+  DependentSearch(const Stage& stage, const std::map<std::string, Path>& sites, DependentOn what)
+      : stage_(stage), sites_(sites), of_name_(what == DependentOn::Name) {}
 
   Dependents search() {
     std::vector<Prim> open{stage_.pseudo_root()};
@@ -64,10 +64,10 @@ class DependentSearch {
       const Node node = nodes[id];
       const Path at = node.path.strip_variants();
       for (const Path site : sites_in(*node.layer_stack)) {
-        const bool below = site.has_prefix(at) && (site != at || node.due_to_ancestor);
+        const bool below = site.has_prefix(at) && (site != at || node.due_to_ancestor || !of_name_);
         if (below && node.arc != ArcKind::Variant) {
           follow({id, site});
-        } else if (at.has_prefix(site) && ends_here(node)) {
+        } else if (of_name_ && at.has_prefix(site) && ends_here(node)) {
           note_arc(node, nodes[node.parent], site);
         }
       }
@@ -106,7 +106,7 @@ class DependentSearch {
       add_implied(place, open);
       if (node.parent == compose::kNoNode) {
         add_prims(place.path, prims, sites);
-      } else if (place.path == node.path.strip_variants() && ends_here(node)) {
+      } else if (of_name_ && place.path == node.path.strip_variants() && ends_here(node)) {
         note_arc(node, nodes[node.parent], place.path);
       } else {
         const Path parent = nodes[node.parent].path.strip_variants();
@@ -182,6 +182,7 @@ class DependentSearch {
 
   const Stage& stage_;
   const std::map<std::string, Path>& sites_;
+  bool of_name_;
   Dependents found_;
   std::unordered_map<const LayerStack*, std::set<Path>> in_stack_;
   std::set<std::tuple<const LayerStack*, Path, Path>> arcs_;  // noted
@@ -191,8 +192,9 @@ class DependentSearch {
 
 }  // namespace
 
-Dependents dependents_of(const Stage& stage, const std::map<std::string, Path>& sites) {
-  return DependentSearch(stage, sites).search();
+Dependents dependents_of(const Stage& stage, const std::map<std::string, Path>& sites,
+                         DependentOn what) {
+  return DependentSearch(stage, sites, what).search();
 }
 
 }  // namespace tenon::stage

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -35,8 +36,15 @@ struct Dependents {
   std::vector<Arc> arcs;
 };
 
+/// What of a prim they depend on.
+enum class DependentOn : std::uint8_t {
+  Name,        ///< of the prim
+  Properties,  ///< their names, also where an arc leads to the prim itself; no `arcs`
+};
+
 /// The dependents of a prim with specs at `sites`: its path in each layer, by identifier, without
 /// variant selections. These are not among them. What is relocated has a name of its own.
-Dependents dependents_of(const Stage& stage, const std::map<std::string, Path>& sites);
+Dependents dependents_of(const Stage& stage, const std::map<std::string, Path>& sites,
+                         DependentOn what = DependentOn::Name);
 
 }  // namespace tenon::stage

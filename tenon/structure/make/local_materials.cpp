@@ -3,6 +3,7 @@
 #include "tenon/structure/make/local_materials.h"
 
 #include <map>
+#include <unordered_map>
 
 #include "tenon/layer/fields.h"
 #include "tenon/structure/layer_tree.h"
@@ -28,8 +29,9 @@ class Copies {
       define_prim(content_, scope_, "Scope");
     }
     Path copy = scope_.child(material.name());
-    for (int i = 1; content_.has(copy); ++i) {
-      copy = scope_.child(Token(material.name().str() + "_" + std::to_string(i)));
+    std::size_t& last = last_[material.name()];
+    while (content_.has(copy)) {
+      copy = scope_.child(Token(material.name().str() + "_" + std::to_string(++last)));
     }
     copy_tree(content_, material, content_, copy);
     copies_.emplace(material, copy);
@@ -40,6 +42,7 @@ class Copies {
   Layer& content_;
   Path scope_;
   std::map<Path, Path> copies_;
+  std::unordered_map<Token, std::size_t> last_;  // number behind a name
 };
 
 }  // namespace

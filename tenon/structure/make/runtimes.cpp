@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "tenon/layer/fields.h"
@@ -389,13 +390,19 @@ void drop_newton(Layer& content, bool but_contacts) {
 }
 
 void drop_material_physics(Layer& content) {
+  std::unordered_map<Path, bool> has_mesh;  // a prim, as a child
+  const auto is_in_instance = [&](Path material) {
+    const Path instance = material.parent().parent();
+    const auto [known, is_new] = has_mesh.try_emplace(instance, false);
+    if (is_new && instance.is_prim()) {
+      const std::vector<Path> children = child_prims(content, instance);
+      known->second = std::any_of(children.begin(), children.end(),
+                                  [&](Path path) { return type_of(content, path) == "Mesh"; });
+    }
+    return known->second;
+  };
   for (const Path& prim : prims_below(content)) {
-    const std::vector<Path> beside = prim.parent().parent().is_prim()
-                                         ? child_prims(content, prim.parent().parent())
-                                         : std::vector<Path>();
-    const bool in_instance = std::any_of(
-        beside.begin(), beside.end(), [&](Path path) { return type_of(content, path) == "Mesh"; });
-    if (type_of(content, prim) != "Material" || in_instance) {
+    if (type_of(content, prim) != "Material" || is_in_instance(prim)) {
       continue;
     }
     const std::vector<Token> before = apis_of(content, prim);

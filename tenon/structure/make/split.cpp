@@ -43,8 +43,9 @@ class Entries {
       define_prim(file_, scope_, "Scope");
     }
     Path path = scope_.child(Token(name));
-    for (int i = 2; file_.has(path); ++i) {
-      path = scope_.child(Token(name + "_" + std::to_string(i)));
+    std::size_t& last = last_.try_emplace(name, 1).first->second;
+    while (file_.has(path)) {
+      path = scope_.child(Token(name + "_" + std::to_string(++last)));
     }
     make_prim(file_, path);
     places_.emplace(key, path);
@@ -59,6 +60,7 @@ class Entries {
   Layer& file_;
   Path scope_;
   std::map<std::string, Path> places_;
+  std::map<std::string, std::size_t> last_;  // number behind a name
 };
 
 void set_reference(Spec& prim, std::string file, Path target) {

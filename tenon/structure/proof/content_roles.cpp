@@ -53,12 +53,23 @@ class RoleFilter {
     }
   }
 
+  /// Of thousands no more than two are looked at.
+  bool has_one_child(Path prim) const {
+    std::size_t count = 0;
+    for (const Token name : content_.children(prim, layer::fields::primChildren)) {
+      count += content_.has(prim.child(name)) ? 1 : 0;
+      if (count > 1) {
+        return false;
+      }
+    }
+    return count == 1;
+  }
+
   /// A scope was there for what it held.
   void remove_with_scopes(Path prim) {
     Path at = prim;
     while (at.parent().is_prim() && type_of(content_, at.parent()) == "Scope" &&
-           child_prims(content_, at.parent()).size() == 1 &&
-           properties_of(content_, at.parent()).empty()) {
+           has_one_child(at.parent()) && properties_of(content_, at.parent()).empty()) {
       at = at.parent();
     }
     remove_tree(content_, at);

@@ -16,6 +16,7 @@
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/mesh_pieces.h"
 #include "tenon/engines/mujoco/error_hook.h"
+#include "tenon/engines/start_pairs.h"
 
 namespace tenon::engines::mujoco {
 
@@ -204,6 +205,7 @@ Penetrations::~Penetrations() = default;
 Result<Penetrations> Penetrations::make(const PhysicsScene& scene, StaticColliders statics,
                                         Diagnostics& diagnostics) {
   const PhysicsScene bare = bare_scene(scene, statics);
+  TENON_CHECK(check_start_pairs(bare));
   Diagnostics findings;
   TENON_TRY(Model model, build_model(bare, {}, findings));
   for (const Diagnostic& found : findings) {
