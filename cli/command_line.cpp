@@ -324,19 +324,17 @@ Option Option::one_of(const std::vector<std::string>& choices) const {
   const std::string name = info_->longest_name();
   hold_value_to(option_, [choices, name](const std::string& value) {
     const bool known = std::find(choices.begin(), choices.end(), value) != choices.end();
-    const std::string all = "one of " + comma_list(choices);
+    const std::string nearest = did_you_mean(value, choices, "");
     return known ? std::string()
-                 : name + " is " + all + "; \"" + value + "\" is none of them" +
-                       (nearest_name(value, choices).empty()
-                            ? ""
-                            : ": " + did_you_mean(value, choices, ""));
+                 : name + " takes one of " + comma_list(choices) + ", not \"" + value + "\"" +
+                       (nearest.empty() ? "" : "; " + nearest);
   });
   return *this;
 }
 
 Option Option::file_only() const {
   hold_value_to(option_, [name = info_->longest_name()](const std::string& value) {
-    return value == "-" ? name + " has to be a file: standard input is not read here" : "";
+    return value == "-" ? name + " must be a file; this verb does not read standard input (-)" : "";
   });
   return *this;
 }

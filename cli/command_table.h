@@ -42,9 +42,14 @@ struct OptionInfo {
   std::string signature() const;
 };
 
+/// The headings of verbs, in this order.
+inline constexpr const char* kVerbGroups[] = {"Look", "Check and convert", "Edit", "Simulate",
+                                              "Show", "The program"};
+
 struct CommandInfo {
   std::string name;
   std::string about;
+  std::string group;  ///< of verbs: its heading in the help of the program, one of kVerbGroups
   std::string footer;
   std::vector<OptionInfo> options;  ///< positionals first
   std::vector<CommandInfo> commands;

@@ -71,18 +71,17 @@ int run(int argc, char** argv) {
   const std::string_view verb = first_word(argc, argv);
   if (!verb.empty() && !cli::is_verb(verb)) {
     const std::string name(verb);
-    const std::string other = "`tenon help` lists all verbs";
     return fail(argc, argv, "",
                 Error(ErrorCode::NotFound, "there is no verb \"" + name + "\"")
                     .with_rule("usage.unknown-verb")
-                    .with_fix(cli::did_you_mean(name, cli::verb_names(), other)));
+                    .with_fix(cli::verb_advice(name, cli::verb_names())));
   }
   Globals globals;
   Chosen chosen;
   const auto line = cli::make_command_line(verb, globals, chosen);
   const Parsed parsed = line->parse(argc, argv);
   if (parsed.help) {
-    cli::print_text(cli::help_of(line->describe(), parsed.command));
+    cli::print_text(cli::help_of(cli::describe_program(), parsed.command));
     return cli::kOk;
   }
   if (parsed.error) {

@@ -16,4 +16,10 @@ std::string nearest_name(std::string_view text, const std::vector<std::string>& 
 std::string did_you_mean(std::string_view text, const std::vector<std::string>& names,
                          const std::string& otherwise);
 
+/// The same for a verb, which other tools call differently: "validate" is check.
+std::string verb_advice(std::string_view text, const std::vector<std::string>& verbs);
+
+/// What to do about a file that cannot be opened: a folder, a URL, a mistyped name; or empty.
+std::string file_advice(const std::string& file);
+
 }  // namespace tenon::cli

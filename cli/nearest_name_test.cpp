@@ -18,6 +18,9 @@ TEST(NearestName, TakesWhatIsNearAndNothingElse) {
   EXPECT_EQ(nearest_name(std::string(1000, 'x'), verbs), "");
   EXPECT_EQ(did_you_mean("inof", verbs, "no"), "did you mean \"info\"?");
   EXPECT_EQ(did_you_mean("qqqq", verbs, "no"), "no");
+  EXPECT_EQ(verb_advice("simulate", verbs), "did you mean \"sim\"?");
+  EXPECT_EQ(verb_advice("Validate", verbs), "did you mean \"check\"?");
+  EXPECT_EQ(verb_advice("qqqq", verbs), "`tenon help` lists all verbs");
 }
 
 }  // namespace

@@ -17,61 +17,66 @@
 namespace tenon::cli {
 namespace {
 
+/// Places in kVerbGroups.
+enum VerbGroup { kLook, kCheck, kEdit, kSimulate, kShow, kProgram };
+
 struct Verb {
   std::string_view name;
   void (*add)(const Command& parent, const Globals& globals, Chosen& chosen);
+  VerbGroup group;
 };
 
 constexpr std::array kVerbs{
-    Verb{"add", add_add},
-    Verb{"bake", add_bake},
-    Verb{"bench", add_bench},
-    Verb{"cat", add_cat},
-    Verb{"check", add_check},
-    Verb{"colliders", add_colliders},
-    Verb{"compare", add_compare},
-    Verb{"completion", add_completion},
-    Verb{"convert", add_convert},
-    Verb{"diff", add_diff},
-    Verb{"doctor", add_doctor},
-    Verb{"drives", add_drives},
-    Verb{"dump", add_dump},
-    Verb{"dump-index", add_dump_index},
-    Verb{"excite", add_excite},
-    Verb{"explain", add_explain},
-    Verb{"help", add_help},
-    Verb{"identify", add_identify},
-    Verb{"inertia", add_inertia},
-    Verb{"info", add_info},
-    Verb{"manual", add_manual},
-    Verb{"new", add_new},
-    Verb{"pairs", add_pairs},
-    Verb{"physics", add_physics},
-    Verb{"pose", add_pose_verb},
-    Verb{"record", add_record},
-    Verb{"remove", add_remove},
-    Verb{"rename", add_rename},
-    Verb{"report", add_report},
-    Verb{"set", add_set},
-    Verb{"sim", add_sim},
-    Verb{"strip", add_strip},
-    Verb{"structure", add_structure},
-    Verb{"sweep", add_sweep},
-    Verb{"test-runner", add_test_runner},
-    Verb{"tree", add_tree},
-    Verb{"tune", add_tune},
-    Verb{"undo", add_undo},
-    Verb{"variant", add_variant},
-    Verb{"version", add_version},
-    Verb{"view", add_view},
-    Verb{"where", add_where},
-    Verb{"zip", add_zip},
+    Verb{"add", add_add, kEdit},
+    Verb{"bake", add_bake, kShow},
+    Verb{"bench", add_bench, kSimulate},
+    Verb{"cat", add_cat, kLook},
+    Verb{"check", add_check, kCheck},
+    Verb{"colliders", add_colliders, kLook},
+    Verb{"compare", add_compare, kSimulate},
+    Verb{"completion", add_completion, kProgram},
+    Verb{"convert", add_convert, kCheck},
+    Verb{"diff", add_diff, kLook},
+    Verb{"doctor", add_doctor, kProgram},
+    Verb{"drives", add_drives, kLook},
+    Verb{"dump", add_dump, kLook},
+    Verb{"dump-index", add_dump_index, kLook},
+    Verb{"excite", add_excite, kSimulate},
+    Verb{"explain", add_explain, kLook},
+    Verb{"help", add_help, kProgram},
+    Verb{"identify", add_identify, kSimulate},
+    Verb{"inertia", add_inertia, kLook},
+    Verb{"info", add_info, kLook},
+    Verb{"manual", add_manual, kProgram},
+    Verb{"new", add_new, kEdit},
+    Verb{"pairs", add_pairs, kLook},
+    Verb{"physics", add_physics, kLook},
+    Verb{"pose", add_pose_verb, kEdit},
+    Verb{"record", add_record, kShow},
+    Verb{"remove", add_remove, kEdit},
+    Verb{"rename", add_rename, kEdit},
+    Verb{"report", add_report, kShow},
+    Verb{"set", add_set, kEdit},
+    Verb{"sim", add_sim, kSimulate},
+    Verb{"strip", add_strip, kCheck},
+    Verb{"structure", add_structure, kCheck},
+    Verb{"sweep", add_sweep, kSimulate},
+    Verb{"test-runner", add_test_runner, kProgram},
+    Verb{"tree", add_tree, kLook},
+    Verb{"tune", add_tune, kEdit},
+    Verb{"undo", add_undo, kEdit},
+    Verb{"variant", add_variant, kCheck},
+    Verb{"version", add_version, kProgram},
+    Verb{"view", add_view, kShow},
+    Verb{"where", add_where, kLook},
+    Verb{"zip", add_zip, kCheck},
 };
 
-constexpr const char* kAbout = "tenon: open, explain and simulate physics-ready USD assets";
+constexpr const char* kAbout = "tenon: convert, check, fix, tune and simulate robot USD";
 
 constexpr const char* kProgramFooter =
     "Examples:\n"
+    "  tenon convert hand.urdf hand/           make an asset from a robot description\n"
     "  tenon info hand.usda                    what the asset is, what is missing\n"
     "  tenon tree hand.usda --show physics     its bodies, joints and masses\n"
     "  tenon check hand.usda                   what is wrong with it, and --fix\n"
@@ -81,7 +86,6 @@ constexpr const char* kProgramFooter =
     "  tenon bake hand.usda -o motion.usda     a layer that any USD viewer plays\n"
     "  tenon record hand.usda -o hand.webm     a film of it, or a picture (.png)\n"
     "  tenon report hand.usda -o hand.html     one page with all of it, to look at and to mail\n"
-    "  tenon convert hand.urdf hand.usda       make an asset from a robot description\n"
     "  tenon new scene.usda                    an empty scene, for tenon add to fill\n"
     "  tenon cat model.usdc                    a binary layer as text\n"
     "  tenon help sim                          all about one verb\n"
@@ -140,7 +144,13 @@ std::unique_ptr<CommandLine> make_command_line(std::string_view only, Globals& g
 CommandInfo describe_program() {
   Globals globals;
   Chosen chosen;
-  return make_command_line("", globals, chosen)->describe();
+  CommandInfo program = make_command_line("", globals, chosen)->describe();
+  for (CommandInfo& command : program.commands) {
+    for (const Verb& verb : kVerbs) {
+      command.group = verb.name == command.name ? kVerbGroups[verb.group] : command.group;
+    }
+  }
+  return program;
 }
 
 std::string help_of(const CommandInfo& program, const std::vector<std::string>& path) {

@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "cli/nearest_name.h"
 #include "cli/print.h"
 #include "cli/text/terminal_text.h"
 #include "tenon/answers/diagnostic_json.h"
@@ -98,7 +100,11 @@ int Report::finish_in_pieces(int code, const answers::WriteMembers& body) {
 }
 
 int Report::fail(const Error& error) {
-  diagnostics.add(error.diagnostic());
+  Diagnostic failed = error.diagnostic();
+  if (failed.fix.empty() && (failed.rule == "file.not-found" || failed.rule == "file.unreadable")) {
+    failed.fix = file_advice(failed.file);
+  }
+  diagnostics.add(std::move(failed));
   for (const Diagnostic& further : error.further()) {
     diagnostics.add(further);
   }

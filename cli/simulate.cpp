@@ -77,19 +77,18 @@ void SimulateArguments::add_to(const Command& verb) {
                   "Time step; without it the asset's, else 0.002 s")
       .value_name("SECONDS");
   verb.add_option("--integrator", integrator,
-                  "How steps are made; without it the asset's, else implicitfast (MuJoCo), euler "
+                  "Integration method; without it the asset's, else implicitfast (MuJoCo), euler "
                   "(PhysX and Jolt, which have no other)")
       .one_of(engines::integrator_names())
       .value_name("NAME");
-  verb.add_option(
-          "--solver", solver,
-          "What finds the forces of contacts and limits; without it the asset's, else newton "
-          "(MuJoCo), pgs (PhysX and Jolt, which have no other)")
+  verb.add_option("--solver", solver,
+                  "Solver of contacts and limits; without it the asset's, else newton "
+                  "(MuJoCo), pgs (PhysX and Jolt, which have no other)")
       .one_of(engines::solver_names())
       .value_name("NAME");
   verb.add_option(
           "--iterations", iterations, {1, 1e6, false, true, ""},
-          "How often the solver tries, at most; without it the asset's, else 100 (MuJoCo), for "
+          "Maximum iterations of the solver; without it the asset's, else 100 (MuJoCo), for "
           "trees of joints and free bodies 32 and 16 (PhysX), 20 and 10 (Jolt)")
       .value_name("COUNT");
   verb.add_option("--fps", frames_per_second, {0, 1e5, true, false, "per second"},

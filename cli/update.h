@@ -9,7 +9,7 @@
 #include "cli/verb.h"
 #include "tenon/asset/updating/update_asset.h"
 
-/// Assets made anew from their source that keep what was edited: options and what becomes of them.
+/// Assets made again from their source that keep what was edited: options and what becomes of them.
 namespace tenon::cli {
 
 struct UpdateArguments {

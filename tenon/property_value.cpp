@@ -157,7 +157,8 @@ Error not_a_path(const std::string& text, const std::string& kind) {
   return Error(ErrorCode::Invalid, "\"" + text + "\" is not the absolute path of a " + kind)
       .with_rule("edit.bad-path")
       .with_fix("write it from the root, as in /hand/palm" +
-                std::string(kind == "property" ? ".physics:mass" : ""));
+                std::string(kind == "property" ? ".physics:mass" : "") +
+                "; tenon tree lists all prims");
 }
 
 Result<PropertyAssignment> read_assignment(const std::string& text) {

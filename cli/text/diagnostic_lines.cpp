@@ -32,16 +32,40 @@ std::string colored(std::string line, Severity severity) {
   return line;
 }
 
-/// A message without its names and numbers: what is in quotes, in <>, and digits.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Where the number ends that begins at `at`, with sign, point and exponent; `at` for none.
+std::size_t end_of_number(const std::string& text, std::size_t at) {
+  std::size_t end = at + (text[at] == '-' ? 1 : 0);
+  if (end == text.size() || !is_digit(text[end])) {
+    return at;
+  }
+  for (; end < text.size(); ++end) {
+    const bool has_more = end + 1 < text.size();
+    const bool is_point = text[end] == '.' && has_more && is_digit(text[end + 1]);
+    const bool is_exponent =
+        text[end] == 'e' && has_more && (text[end + 1] == '-' || text[end + 1] == '+');
+    end += is_exponent ? 1 : 0;
+    if (!is_digit(text[end]) && !is_point && !is_exponent) {
+      break;
+    }
+  }
+  return end;
+}
+
+/// A message without its names and numbers: what is in quotes, in <>, and numbers.
 std::string kind_of(const Diagnostic& d) {
   std::string kind = std::string(severity_name(d.severity)) + d.rule + ' ';
   char closing = 0;
-  for (const char c : d.message) {
+  for (std::size_t i = 0; i < d.message.size(); ++i) {
+    const char c = d.message[i];
     if (closing != 0) {
       closing = c == closing ? '\0' : closing;
     } else if (c == '"' || c == '`' || c == '@' || c == '<') {
       closing = c == '<' ? '>' : c;
-    } else if (c < '0' || c > '9') {
+    } else if (const std::size_t end = end_of_number(d.message, i); end > i) {
+      i = end - 1;
+    } else {
       kind += c;
     }
   }

@@ -24,7 +24,7 @@ std::vector<std::string> diagnostic_lines(const std::vector<Remark>& findings, b
                                           bool all);
 
 constexpr std::size_t kShownAlike = 3;
-constexpr std::size_t kShownOfAKind = 10;
+constexpr std::size_t kShownOfAKind = 3;
 
 /// The line of one finding, with the file as shown_path has it.
 std::string diagnostic_line(Diagnostic diagnostic, bool color);

@@ -45,6 +45,23 @@ std::string rows(const std::string& title, const std::vector<OptionInfo>& option
   return text.empty() ? text : "\n" + title + "\n" + text;
 }
 
+/// Whether an option of many verbs is listed behind those that the verb is for.
+bool is_rare(const OptionInfo& option) {
+  constexpr std::string_view kRare[] = {"--mask",        "--unloaded", "--load",
+                                        "--mute-layer",  "--sandbox",  "--allow-read",
+                                        "--search-path", "--max-work", "--reading"};
+  return std::find(std::begin(kRare), std::end(kRare), option.longest_name()) != std::end(kRare);
+}
+
+std::string verb_rows(const std::string& title, const std::string& group,
+                      const CommandInfo& command, std::size_t width) {
+  std::string text;
+  for (const CommandInfo& verb : command.commands) {
+    text += verb.group == group ? row(verb.name, verb.about, width) : "";
+  }
+  return text.empty() ? text : "\n" + title + "\n" + text;
+}
+
 /// A line of a footer that stands as it is: an example and, behind two blanks, what it is for.
 std::string example(std::string_view line, std::size_t width) {
   const std::size_t start = line.find_first_not_of(' ');
@@ -146,12 +163,14 @@ std::string help_text(const CommandInfo& command, const std::string& name,
   std::string text = wrapped(command.about, width) + "\n\n";
   text += wrapped("Usage: " + usage_line(command, name), width, 9) + "\n";
   text += rows("Arguments:", command.options, true, width);
-  text += rows("Options:", command.options, false, width);
-  if (!command.commands.empty()) {
-    text += "\nVerbs:\n";
-    for (const CommandInfo& verb : command.commands) {
-      text += row(verb.name, verb.about, width);
-    }
+  std::vector<OptionInfo> usual = command.options;
+  const auto rare = std::stable_partition(
+      usual.begin(), usual.end(), [](const OptionInfo& option) { return !is_rare(option); });
+  text += rows("Options:", {usual.begin(), rare}, false, width);
+  text += rows("Options for reading the asset:", {rare, usual.end()}, false, width);
+  text += verb_rows("Verbs:", "", command, width);
+  for (const std::string group : kVerbGroups) {
+    text += verb_rows(group + ":", group, command, width);
   }
   text += rows("Options of every verb:", shared, false, width);
   return text + (command.footer.empty() ? "" : "\n" + footer_text(command.footer, width));

@@ -59,7 +59,7 @@ std::string settings_section() {
 
 std::string man_page(const CommandInfo& program, const std::string& version) {
   std::string text = ".TH TENON 1 \"\" \"tenon " + roff(version) + "\"\n.SH NAME\n" +
-                     "tenon \\- open, explain and simulate physics\\-ready USD assets\n" +
+                     "tenon \\- convert, check, fix, tune and simulate robot USD\n" +
                      ".SH SYNOPSIS\n.B tenon\n.I VERB\n[\\fIOPTIONS\\fR] [\\fIARGUMENTS\\fR]\n" +
                      ".SH OPTIONS OF EVERY VERB\n" + options_text(program.options) + ".SH VERBS\n";
   for (const CommandInfo& verb : program.commands) {

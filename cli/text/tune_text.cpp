@@ -6,6 +6,7 @@
 // of the table, too.
 #include "cli/text/tune_text.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -62,6 +63,11 @@ std::string changed(const Json& drive, const char* name) {
   const std::string now = number_of(drive[name]);
   const std::string then = drive["to"].is_null() ? now : number_of(drive["to"][name]);
   return now == then ? now : now + " -> " + then;
+}
+
+bool any_drive(const Json& tuned) {
+  return std::any_of(tuned["drives"].begin(), tuned["drives"].end(),
+                     [](const Json& drive) { return !drive["type"].is_null(); });
 }
 
 std::string notes_of(const Json& drive) {
@@ -202,7 +208,8 @@ std::string tune_text(const Json& tuned, bool saved) {
   const JointNames names(tuned);
   std::string text = drives_text(tuned, names);
   if (tuned["wished"].get<bool>() && tuned["request"].empty()) {
-    text += "nothing changes\n";
+    const std::string advice = "tenon set ASSET --drive JOINT=stiffness:10,damping:1 adds a drive";
+    text += any_drive(tuned) ? "nothing changes\n" : "nothing to tune; " + advice + "\n";
   } else if (tuned["wished"].get<bool>() && !saved) {
     text += "nothing is written: --save does that\n";
   }

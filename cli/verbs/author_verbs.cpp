@@ -240,8 +240,8 @@ void add_add(const Command& parent, const Globals& globals, Chosen& chosen) {
 }
 
 void add_remove(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb =
-      parent.add_subcommand("remove", "Take away what add adds, or a prim with all that names it");
+  const Command verb = parent.add_subcommand(
+      "remove", "Remove a prim, or what add put on it, with all references to it");
   auto options = std::make_shared<AuthorArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
   verb.add_option("what", options->request.what, "PATH, or PATH=KIND,KIND: see tenon help add")

@@ -93,12 +93,12 @@ void add_bake(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "with all that is seen, for browsers and other 3D programs")
       .required();
   verb.add_option("--simplify", options->triangles, {1, 1e9, false, true, ""},
-                  "Of .glb: draw about so many triangles at most")
+                  "About the maximum number of triangles in a .glb")
       .value_name("TRIANGLES");
   verb.add_flag("--compress", options->compressed,
-                "Of .glb: an eighth of the size, by extensions of glTF that not all programs read");
+                "A .glb of an eighth of the size, with glTF extensions that not all programs read");
   verb.add_flag("--uninstance", options->simulate.uninstance,
-                "Take instances apart that have moving bodies inside (instanceable = false)");
+                "Make instances with moving bodies inside editable (instanceable = false)");
   verb.footer(
       "Examples:\n"
       "  tenon bake grasp.usda -o motion.usda --fps 60 --duration 4\n"

@@ -125,15 +125,15 @@ constexpr const char* kBenchFooter =
 }  // namespace
 
 void add_bench(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb = parent.add_subcommand(
-      "bench", "Many simulations at a time: rate, memory, and what became of each");
+  const Command verb =
+      parent.add_subcommand("bench", "Many simulations at a time: rate, memory, results");
   auto options = std::make_shared<BenchArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("--envs", options->environments, {1, 1e6, false, true, ""},
-                  "How many environments")
+                  "Number of environments")
       .value_name("COUNT");
   verb.add_option("-j,--threads", options->threads, {0, 4096, false, true, ""},
-                  "How many threads; 0 is as many as there are processors")
+                  "Number of threads; 0 is one for each processor")
       .value_name("COUNT");
   verb.add_option("--engine", options->engine, "The engine; without it as in tenon sim")
       .one_of(engines::engine_names())
@@ -150,7 +150,8 @@ void add_bench(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--vary", options->variations, "NAME=LOW..HIGH or NAME@/path=LOW..HIGH")
       .repeatable()
       .value_name("WHAT");
-  verb.add_option("--seed", options->seed, {0, 1e15, false, true, ""}, "What --vary draws from")
+  verb.add_option("--seed", options->seed, {0, 1e15, false, true, ""},
+                  "Seed of the draws of --vary")
       .value_name("NUMBER")
       .only_with({"--vary"});
   add_readings(verb, options->readings);

@@ -277,7 +277,7 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_flag("--strict", options->strict, "Warnings count as errors for the exit code");
   add_readings(verb, options->readings);
   verb.add_option("--for", options->rules.engines,
-                  "What these engines do otherwise where they read the asset themselves, not by "
+                  "Differences of these engines where they read the asset themselves, not by "
                   "tenon sim --engine: rules of the family portability")
       .split_at_commas()
       .one_of(check::known_engines());
@@ -287,9 +287,9 @@ void add_check(const Command& parent, const Globals& globals, Chosen& chosen) {
           "it that of tenon.toml")
       .one_of(check::known_profiles());
   verb.add_option("--only", options->rules.only,
-                  "These rules or families alone (mass, joint.body-missing)")
+                  "The only rules or families to check (mass, joint.body-missing)")
       .split_at_commas();
-  verb.add_option("--skip", options->rules.skip, "Not these rules or families").split_at_commas();
+  verb.add_option("--skip", options->rules.skip, "Rules or families to skip").split_at_commas();
   verb.add_option("--sarif", options->sarif, "Write a SARIF 2.1.0 log; - is standard output");
   verb.add_option("--baseline", options->baseline, "Findings in this file are known");
   verb.add_option("--write-baseline", options->write_baseline,

@@ -158,9 +158,10 @@ void add_colliders(const Command& parent, const Globals& globals, Chosen& chosen
                   "the selected variant")
       .one_of(names)
       .value_name("NAME");
-  verb.add_option("--colliders", options->colliders,
-                  "These alone: name, path, or regular expression for the whole of either, of "
-                  "colliders or bodies; may be repeated")
+  verb.add_option(
+          "--colliders", options->colliders,
+          "Colliders to look at: name, path, or regular expression for the whole of either, of "
+          "colliders or bodies; may be repeated")
       .repeatable()
       .value_name("PATTERN");
   add_choice_options(verb, *options);

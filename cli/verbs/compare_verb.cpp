@@ -193,7 +193,7 @@ void add_compare(const Command& parent, const Globals& globals, Chosen& chosen) 
       .repeatable()
       .value_name("BOUND");
   verb.add_option("--trials", options->trials, {1, 1e5, false, true, ""},
-                  "How many causes are tried, at most")
+                  "Maximum number of causes that are tried")
       .value_name("COUNT")
       .not_with({"--no-reasons"});
   verb.add_flag("--no-reasons", options->no_reasons, "Do not look for reasons");

@@ -173,7 +173,7 @@ Result<void> check_options(const ConvertArguments& options, bool folder) {
   }
   if (options.update.update && !folder && ends_in(options.output, {".usdz"})) {
     return Error(ErrorCode::Unsupported, "a package cannot be updated")
-        .with_fix("convert into a folder, or give --force to make the package anew");
+        .with_fix("convert into a folder, or give --force to make the package again");
   }
   return {};
 }
@@ -417,8 +417,7 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_option("--name", options.name,
                   "Name of the robot, and of the file that opens it in a folder; that of the "
                   "description if not given");
-  verb.add_option("--model", options.model,
-                  "Of an SDF file with several models: the one to convert");
+  verb.add_option("--model", options.model, "The model to convert, of an SDF file with several");
   verb.add_option("--names", options.names,
                   "Files, names and attributes in a folder: those of Isaac Sim 6, or those of its "
                   "tutorial, with links side by side and variants for PhysX and MuJoCo; without it "
@@ -441,15 +440,14 @@ void add_robot_options(const Command& verb, ConvertArguments& options) {
   verb.add_flag("--merge-fixed", options.merge_fixed,
                 "Make links on fixed joints parts of the links that hold them");
   verb.add_option("--physics", options.physics,
-                  "Of an asset: the variant of its set \"Physics\" to describe");
+                  "The variant of the set \"Physics\" of an asset to describe");
   verb.add_option("--format", options.format,
-                  "Of an asset: what its description is, where the ending does not say so: a "
+                  "Format of the written description, where the ending does not say so: a "
                   "configuration of isaaclab or mjlab in Python, or URDF with ros2_control")
       .one_of(description_format_names());
   verb.add_option("--assets", options.assets,
-                  "Of an asset: the folder below that of the description for its meshes and "
-                  "images; without it one with the description's name, and meshes in the text of "
-                  "MJCF")
+                  "Folder for meshes and images, below that of the written description; without it "
+                  "one with the description's name, and meshes in the text of MJCF")
       .value_name("DIR");
   verb.add_flag("--scene", options.scene,
                 "Keep a MJCF model's world as a PhysicsScene: gravity, time step, options");
@@ -486,7 +484,7 @@ void add_drive_options(const Command& verb, ConvertArguments& options) {
 
 void add_body_options(const Command& verb, ConvertArguments& options) {
   verb.add_option("--collision", options.rules.collision,
-                  "What meshes of links collide as: hull, decomposition (convex pieces), sphere "
+                  "Collision shape of meshes: hull, decomposition (convex pieces), sphere "
                   "(around the mesh) or none (the mesh itself, which not every engine takes for "
                   "bodies that move); hull if not given")
       .value_name("[REGEX=]hull|decomposition|sphere|none")
@@ -537,7 +535,7 @@ void add_convert(const Command& parent, const Globals& globals, Chosen& chosen) 
       "last\n"
       "that matches counts, and a VALUE alone is for all others. One that matches nothing is an "
       "error.\n"
-      "Exit code 1: written, but something of the robot is left out, or an edit and the source\n"
+      "Exit code 1: written, but something of the robot is skipped, or an edit and the source\n"
       "changed the same thing (--update); each case is listed.");
   choose(verb, chosen, [&globals, options] { return run_convert(globals, *options); });
 }

@@ -104,7 +104,7 @@ constexpr const char* kDrivesFooter =
 
 void add_drives(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
-      "drives", "What motors can do and have to hold; limits from data sheets");
+      "drives", "Effort and speed limits of drives, the weight that they hold");
   auto options = std::make_shared<DrivesArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda, .usdc or .usdz file")
       .required()

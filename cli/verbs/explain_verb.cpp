@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/nearest_name.h"
 #include "cli/output.h"
 #include "cli/reading_options.h"
 #include "cli/report.h"
@@ -34,12 +35,17 @@ int explain_rule_or_finding(const Globals& globals, const std::string& rule) {
     text = check::page_of(rule);
   }
   if (text.empty()) {
+    std::vector<std::string> names;
+    for (const check::Rule& known : check::rules()) {
+      names.emplace_back(known.id);
+    }
     return report.fail(
         Error(ErrorCode::NotFound, "explain needs an asset and a prim, or a rule; \"" + rule +
                                        "\" is neither the number nor the name of a rule")
             .with_rule("usage.missing-argument")
-            .with_fix("write `tenon explain FILE PRIM` or `tenon explain RULE`; `tenon check "
-                      "--list-rules` names all rules"));
+            .with_fix(did_you_mean(rule, names,
+                                   "write `tenon explain FILE PRIM` or `tenon explain RULE`; "
+                                   "`tenon check --list-rules` names all rules")));
   }
   if (!report.json()) {
     print_text(is_rule_number(rule) ? rule + ": " + text + "\n" : text);
@@ -73,7 +79,7 @@ int run_explain(const Globals& globals, const ExplainArguments& options) {
 
 void add_explain(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
-      "explain", "Where a number comes from: layer and line, rule, and what lost to it");
+      "explain", "Where a number comes from: file and line, rule, weaker opinions");
   auto options = std::make_shared<ExplainArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.option("asset").description("A USD file, - for standard input; or a rule alone");

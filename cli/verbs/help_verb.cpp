@@ -47,10 +47,9 @@ int run_help(const Globals& globals, const std::vector<std::string>& path) {
   const CommandInfo program = describe_program();
   const std::string help = help_of(program, path);
   if (help.empty()) {
-    return report.fail(
-        Error(ErrorCode::NotFound, "there is no verb \"" + path.front() + "\"")
-            .with_rule("usage.unknown-verb")
-            .with_fix(did_you_mean(path.front(), topics(), "`tenon help` lists all verbs")));
+    return report.fail(Error(ErrorCode::NotFound, "there is no verb \"" + path.front() + "\"")
+                           .with_rule("usage.unknown-verb")
+                           .with_fix(verb_advice(path.front(), topics())));
   }
   if (report.json()) {
     return report.finish(kOk, command_json(program));
@@ -91,8 +90,7 @@ void add_version(const Command& parent, const Globals& globals, Chosen& chosen) 
 }
 
 void add_manual(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb =
-      parent.add_subcommand("manual", "Print the manual page, for man, from the table of options");
+  const Command verb = parent.add_subcommand("manual", "Print the manual page, for man");
   verb.footer("Example:\n  tenon manual > tenon.1 && man ./tenon.1");
   choose(verb, chosen, [&globals] {
     Report report(globals, "manual", "");

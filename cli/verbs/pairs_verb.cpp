@@ -181,7 +181,7 @@ void add_search_options(const Command& verb, PairsArguments& options) {
                   "Postures that are drawn; 0: the start alone")
       .value_name("COUNT");
   verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""},
-                  "What postures are drawn from")
+                  "Seed of the postures that are drawn")
       .value_name("NUMBER")
       .not_with({"--sample=0"});
   verb.add_flag("--environment", options.environment, "Static colliders, too");

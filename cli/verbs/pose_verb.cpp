@@ -320,16 +320,16 @@ void add_reach(const Command& verb, PoseArguments& options) {
       .value_name("JOINT")
       .only_with({"--ik"});
   verb.add_option("--tolerance", request.tolerance, {1e-9, 1e3, false, false, "m"},
-                  "How near a place counts as reached; without it 1e-5 m")
+                  "Distance at which a place counts as reached; without it 1e-5 m")
       .value_name("METRES")
       .only_with({"--ik"});
   verb.add_option("--starts", request.starts,
                   {1, static_cast<double>(limits::kReachStarts), false, true, ""},
-                  "From how many postures the search begins, at most")
+                  "Maximum number of postures from which the search begins")
       .value_name("COUNT")
       .only_with({"--ik"});
   verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""},
-                  "What further postures are drawn from")
+                  "Seed of the postures that are drawn")
       .value_name("NUMBER")
       .only_with({"--ik"});
 }
@@ -337,8 +337,8 @@ void add_reach(const Command& verb, PoseArguments& options) {
 }  // namespace
 
 void add_pose_verb(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb = parent.add_subcommand(
-      "pose", "Named poses of a robot, and where joints have to be for a frame to be somewhere");
+  const Command verb =
+      parent.add_subcommand("pose", "Named poses of a robot, and inverse kinematics");
   auto options = std::make_shared<PoseArguments>();
   verb.add_option("asset", options->asset, "A .usd, .usda or .usdc file").required().file_only();
   add_tasks(verb, *options);

@@ -37,10 +37,10 @@ void RecordArguments::add_camera_to(const Command& verb) {
                   "without it by the angles below")
       .value_name("PRIM");
   verb.add_option("--azimuth", camera.azimuth, {-1e6, 1e6, false, false, "degrees"},
-                  "Where one stands: about the up axis from +X, against the clock")
+                  "Angle of the camera about the up axis, counterclockwise from +X")
       .value_name("DEGREES");
   verb.add_option("--elevation", camera.elevation, {-89, 89, false, false, "degrees"},
-                  "How far above the ground")
+                  "Angle of the camera above the ground")
       .value_name("DEGREES");
   verb.add_option("--zoom", camera.zoom, {0.01, 1000, false, false, ""},
                   "1 shows all of what is looked at, 2 is twice as close")
@@ -72,23 +72,25 @@ void RecordArguments::add_looks_to(const Command& verb) {
 
 void RecordArguments::add_film_to(const Command& verb) {
   verb.add_option("--time", options.time, {0, 1e6, false, false, "s"},
-                  "Of .png: the moment that is shown; it is simulated up to there")
+                  "Moment that a .png shows; it is simulated up to there")
       .value_name("SECONDS");
   verb.add_flag("--panels", options.panels,
-                "Of .png: the page of tenon report, with its panels around the picture");
+                "The page of tenon report, with its panels around the picture (.png)");
   verb.add_option("--speed", options.speed, {1e-4, 1e4, false, false, ""},
-                  "Of films: seconds of motion for each second; 0.25 is slow motion")
+                  "Seconds of motion for each second of a film; 0.25 is slow motion")
       .value_name("FACTOR");
   verb.add_option("--turn", options.camera.turn, {-1e6, 1e6, false, false, "degrees"},
-                  "Of films: how far the camera goes around from begin to end")
+                  "Angle that the camera turns from begin to end of a film")
       .value_name("DEGREES");
-  verb.add_option("--codec", options.codec,
-                  "Of films; without it vp9 in .webm and h264 in .mp4, which not every Chromium "
-                  "can make")
+  verb.add_option(
+          "--codec", options.codec,
+          "Codec of a film; without it vp9 in .webm and h264 in .mp4, which not every Chromium "
+          "can make")
       .one_of({"h264", "vp9", "vp8", "av1"})
       .value_name("NAME");
-  verb.add_option("--bitrate", megabits, {0.01, 1000, false, false, "Mbit/s"},
-                  "Of films; without it by size and frames: 4.1 for 1280x720 at 30 per second")
+  verb.add_option(
+          "--bitrate", megabits, {0.01, 1000, false, false, "Mbit/s"},
+          "Bit rate of a film; without it by size and frames: 4.1 for 1280x720 at 30 per second")
       .value_name("MBITS");
 }
 
@@ -157,7 +159,7 @@ void add_record(const Command& parent, const Globals& globals, Chosen& chosen) {
   options->simulate.add_to(verb);
   options->simulate.add_commands_to(verb);
   verb.option("asset").file_only().description("A .usd, .usda, .usdc or .usdz file");
-  verb.option("--fps").description("Of films: frames per second");
+  verb.option("--fps").description("Frames per second of a film");
   verb.add_option("-o,--output", options->output, "The file to write: .png, .webm or .mp4")
       .required();
   options->picture.add_to(verb);

@@ -60,6 +60,9 @@ void print_rows(const Json& states, const char* what, const char* title) {
   }
   print("%s\n", title);
   for (const auto& [path, state] : states.items()) {
+    if (state["position"].is_array() && state["position"].empty()) {
+      continue;  // a fixed joint
+    }
     print("  %-56s", path.c_str());
     print_numbers(state["position"]);
     print("\n");
@@ -263,8 +266,9 @@ void add_sim(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--format", options->format, "Format of the log: csv (as for -o -), jsonl, npz")
       .one_of({"csv", "jsonl", "npz"})
       .only_with({"--output"});
-  verb.add_option("--log", options->simulate.log,
-                  "What the log has beside states; contacts of a .csv log go to NAME.contacts.csv")
+  verb.add_option(
+          "--log", options->simulate.log,
+          "Contents of the log beside states; contacts of a .csv log go to NAME.contacts.csv")
       .one_of(bake::log_output_names())
       .split_at_commas()
       .repeatable()

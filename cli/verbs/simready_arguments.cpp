@@ -8,12 +8,12 @@ namespace tenon::cli {
 
 void SimReadyArguments::add_to(const Command& verb) {
   verb.add_option("--profile", profile,
-                  "What the asset is to pass in tenon check --profile: with simready it gets a "
+                  "Profile of tenon check that the asset must pass: with simready it gets a "
                   "variant set for each engine, UsdPhysics alone in physics.usda, metadata and a "
                   "thumbnail (docs/conversion.md)")
       .one_of(known_target_profiles());
   verb.add_option("--robot-type", robot_type,
-                  "What kind of robot it is (isaac:robotType), which no description says")
+                  "Kind of robot (isaac:robotType), which no description says")
       .one_of(structure::known_robot_types());
   verb.add_option("--metadata", metadata,
                   "NAME=TEXT: what SimReady asks for and the robot does not tell: author, "

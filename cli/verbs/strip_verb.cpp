@@ -109,8 +109,7 @@ int run_mute(Report& report, const StripArguments& options) {
 }  // namespace
 
 void add_strip(const Command& parent, const Globals& globals, Chosen& chosen) {
-  const Command verb = parent.add_subcommand(
-      "strip", "Take all physics out of an asset, or mute it, and leave the rest as it is");
+  const Command verb = parent.add_subcommand("strip", "Remove or mute all physics of an asset");
   auto options = std::make_shared<StripArguments>();
   options->asset.add_to(verb);
   verb.add_option(

@@ -20,6 +20,7 @@
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset/updating/updated_json.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/structure/layout.h"
 
@@ -101,9 +102,11 @@ int run_structure(Report& report, const StructureArguments& options) {
       print("%10zu  %-11s %s\n", file.bytes, file.role.c_str(), file.name.c_str());
     }
   }
-  report.note((options.dry_run ? "would write " : "wrote ") + std::to_string(files.size()) +
-              " files; " + std::to_string(asset->moved.size()) +
-              " prims moved; Physics=" + asset->selection + " is selected");
+  const std::string opens =
+      (std::filesystem::path(options.output) / asset->package.interface).string();
+  report.note((options.dry_run ? "would write " : "wrote ") + shown_path(opens) + ": " +
+              counted(files.size(), "file") + ", " + counted(asset->moved.size(), "prim") +
+              " moved, Physics=" + asset->selection + " is selected");
   return report.finish(left_out(report.diagnostics) ? kNo : kOk, structured_json(*asset));
 }
 

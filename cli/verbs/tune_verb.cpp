@@ -256,20 +256,21 @@ void add_test_options(const Command& verb, TuneArguments& options) {
       .repeatable()
       .value_name("PATTERN");
   verb.add_option("--period", options.period, {1e-3, 1e4, false, false, "s"},
-                  "Of a sine; how long a step is watched; without it 2 s")
+                  "Period of a sine, or the time that a step is watched; without it 2 s")
       .value_name("SECONDS")
       .only_with({"--test=step", "--test=sine", "--test=steps"});
-  verb.add_option("--amplitude", options.amplitude, {1e-6, 100, false, false, "%"},
-                  "Of steps and sines in per cent of the range; without it 10, of the random walk "
-                  "of stress in each step 1")
+  verb.add_option(
+          "--amplitude", options.amplitude, {1e-6, 100, false, false, "%"},
+          "Size of steps and sines in per cent of the range; without it 10, of the random walk "
+          "of stress in each step 1")
       .value_name("PERCENT")
       .only_with({"--test=step", "--test=sine", "--test=stress", "--test=steps", "--search"});
   verb.add_option("--duration", options.run.duration, {1e-3, 1e5, false, false, "s"},
-                  "Of sine and stress; without it 4 periods, 10 s")
+                  "Duration of sine and stress; without it 4 periods, 10 s")
       .value_name("SECONDS")
       .only_with({"--test=sine", "--test=stress"});
   verb.add_option("--seed", options.seed, {0, 1e15, false, true, ""},
-                  "Of stress, and of the poses of a search")
+                  "Seed of stress, and of the poses of a search")
       .value_name("NUMBER")
       .only_with({"--test=stress", "--poses"});
   verb.add_flag("--adversarial", options.adversarial,
@@ -282,23 +283,23 @@ void add_search_options(const Command& verb, TuneArguments& options) {
                 "Search the softest gains with which steps meet --overshoot and --settle")
       .not_with({"--frequency", "--damping-ratio", "--gains"});
   verb.add_option("--overshoot", options.overshoot,
-                  "Of a search: at most so much of the step, such as 5%; without it 1 %")
+                  "Maximum overshoot for --search, such as 5%; without it 1 %")
       .value_name("PERCENT")
       .only_with({"--search"});
   verb.add_option("--settle", options.settle, {1e-3, 100, false, false, "s"},
-                  "Of a search: within 2 % of the step after this; without it 0.2 s")
+                  "Settling time (within 2 % of the step) for --search; without it 0.2 s")
       .value_name("SECONDS")
       .only_with({"--search"});
   verb.add_option("--payload", options.payloads,
-                  "Of a search: with each of these point masses [kg] at --at, such as 0,0.5")
+                  "Point masses [kg] at --at that --search tries, such as 0,0.5")
       .split_at_commas()
       .value_name("MASSES")
       .only_with({"--search"});
-  verb.add_option("--at", options.at, "Where payloads are: a link, or a prim below one")
+  verb.add_option("--at", options.at, "Place of the payloads: a link, or a prim below one")
       .value_name("PRIM")
       .only_with({"--search"});
   verb.add_option("--poses", options.poses, {0, 63, false, true, ""},
-                  "Of a search: at so many drawn poses, too")
+                  "Number of drawn poses that --search tries, too")
       .value_name("COUNT")
       .only_with({"--search"});
 }

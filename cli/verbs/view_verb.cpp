@@ -215,7 +215,7 @@ constexpr const char* kViewFooter =
 
 void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb =
-      parent.add_subcommand("view", "Look at an asset in the browser, move it, ask it, edit it");
+      parent.add_subcommand("view", "Show an asset in the browser: move it, inspect it, edit it");
   auto options = std::make_shared<ViewArguments>();
   options->asset.add_to(verb);
   verb.add_option("--bind", options->bind,

@@ -31,7 +31,8 @@ Result<SoughtObject> parse_object(const std::string& text) {
   if (!path || !path->is_absolute() || path->has_variants() ||
       !(path->is_prim_or_root() || path->kind() == PathKind::Property)) {
     return Error(ErrorCode::Invalid, "\"" + text + "\" is not the path of a prim or property")
-        .with_fix("write it from the root, as in /hand/palm.physics:mass");
+        .with_fix(
+            "write it from the root, as in /hand/palm.physics:mass; tenon tree lists all prims");
   }
   return path->is_property() ? SoughtObject{path->parent(), path->name()} : SoughtObject{*path, {}};
 }
@@ -81,7 +82,7 @@ int run_where(const Globals& globals, const WhereArguments& options) {
 
 void add_where(const Command& parent, const Globals& globals, Chosen& chosen) {
   const Command verb = parent.add_subcommand(
-      "where", "Every file that speaks about a property or prim, and which of them counts");
+      "where", "Every file that sets a property or defines a prim, and which wins");
   auto options = std::make_shared<WhereArguments>();
   options->asset.add_with_standard_input_to(verb);
   verb.add_option("object", options->object, "PRIM.property, or PRIM for its own fields")

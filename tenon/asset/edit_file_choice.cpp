@@ -201,9 +201,13 @@ Result<FileChoice> file_of_prim(const FileQuestion& q, const structure::Ownershi
       }
     }
   }
+  std::string advice = "name the file with --in";
+  for (const std::string& file : files_with(q, Role::Base)) {
+    advice += site_for(q.stage, q.edit, file) ? ": " + file_name(file) : "";
+  }
   return no_file(
-      q, "no file for " + subject(q.edit) + " has a place for <" + q.edit.object.str() + ">",
-      "name the file with --in");
+      q, "<" + q.edit.object.str() + "> is in none of the files that hold " + subject(q.edit),
+      advice);
 }
 
 Result<FileChoice> owning_file(const FileQuestion& q) {

@@ -40,7 +40,7 @@ Result<Assignment> read_prim_assignment(const std::string& text, const std::stri
   const auto path = Path::parse(parts->first);
   if (!path || !path->is_absolute() || !path->is_prim()) {
     return bad("\"" + parts->first + "\" is not the path of a prim, which begins with /",
-               "write " + form);
+               "write " + form + "; tenon tree lists all prims");
   }
   return Assignment{*path, parts->second};
 }

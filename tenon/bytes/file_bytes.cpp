@@ -120,7 +120,10 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
     return file_error(path, "cannot open the file", errno);
   }
   if (!S_ISREG(info.st_mode)) {
-    return Error(ErrorCode::Io, "not a regular file").in_file(path).with_rule("file.unreadable");
+    return Error(ErrorCode::Io,
+                 S_ISDIR(info.st_mode) ? "this is a folder, not a file" : "not a regular file")
+        .in_file(path)
+        .with_rule("file.unreadable");
   }
   const auto claimed = static_cast<std::uint64_t>(info.st_size);
   TENON_CHECK(check_size(claimed, rules, path));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The text is written in one pass, in the order of the model. A link has a pose relative to the
-// link that carries it, so that poses are the origins of joints; a joint stands in its child. Roll,
+// link that carries it, so that poses are the origins of joints; a joint is in its child. Roll,
 // pitch and yaw are written as people read them; close to straight up or down, where they lose
 // digits, the quaternion is. A limit that a joint lacks is not written: SDFormat has none then.
 #include "tenon/sdf/write_sdf.h"

@@ -97,7 +97,7 @@ Result<Python> find_python(const bytes::Files& files, const std::string& path) {
   return Error(ErrorCode::Missing, "its macros are expanded by xacro, which is not installed")
       .in_file(path)
       .with_rule("xacro.missing")
-      .with_fix("run `pip install xacro`, or set up ROS, so that xacro or python3 on PATH has it");
+      .with_fix("run `pip install xacro` in an active virtual environment, or set up ROS");
 }
 
 Error no_sandbox(const std::string& path) {

@@ -326,6 +326,118 @@ class "Shape"
         self.assertIn("of one body", text)
 
 
+class Mistakes(Case):
+    """What is typed wrongly: the first line says what to type."""
+
+    def test_files_that_are_none(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "arm/")
+        folder = "this is a folder, not a file; name the file in it: arm/arm.usda"
+        for name, told in (("arm", folder), ("arm/payloads", "name a file in it"),
+                           ("arm/amr.usda", "did you mean arm/arm.usda?"),
+                           ("https://localhost/a.usda", "URLs are not opened")):
+            for verb in ("info", "sim"):
+                self.assertIn(told, self.tenon(verb, name, code=2).stderr)
+        text = self.tenon("convert", "arn.urdf", "x/", code=2).stderr
+        self.assertIn("did you mean arm.urdf?", text)
+        found = self.json("info", "arm", code=2)["diagnostics"][0]
+        self.assertEqual(found["fix"], "name the file in it: arm/arm.usda")
+
+    def test_an_empty_file_is_called_empty(self):
+        for verb, name in (("info", "e.usda"), ("convert", "e.urdf")):
+            self.write(name, "")
+            text = self.tenon(verb, name, *(["x/"] if verb == "convert" else []), code=2).stderr
+            self.assertIn("the file is empty", text)
+
+    def test_verbs_of_other_tools(self):
+        for typed, verb in (("simulate", "sim"), ("validate", "check"), ("export", "convert"),
+                            ("Lint", "check"), ("chek", "check")):
+            self.assertIn(f'did you mean "{verb}"?', self.tenon(typed, "a.usda", code=2).stderr)
+
+    def test_a_name_for_a_path(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "arm.usda")
+        text = self.tenon("explain", "arm.usda", "shoulder", code=2).stderr
+        meant = re.search(r"did you mean (\S+)\?", text).group(1)
+        self.tenon("explain", "arm.usda", meant)
+
+    def test_a_rule_that_is_mistyped(self):
+        text = self.tenon("explain", "joint.outside-limits", code=2).stderr
+        self.assertIn('did you mean "joint.outside-limit"?', text)
+
+    def test_standard_input_where_a_file_is_needed(self):
+        text = self.tenon("check", "-", code=2).stderr
+        self.assertIn("does not read standard input (-)", text)
+
+    def test_a_fixed_joint_has_no_degree_of_freedom(self):
+        joint = '    def PhysicsFixedJoint "j"\n    {\n    }\n'
+        self.write("s.usda", Filters.SCENE % joint)
+        text = self.tenon("add", "s.usda", "/World/j=drive", "--stiffness", "1", code=2).stderr
+        self.assertIn("</World/j> is fixed: it has no degree of freedom", text)
+
+    def test_what_is_undone_is_named_by_its_whole_path(self):
+        self.tenon("new", "s.usda")
+        self.assertNotIn("../", self.tenon("undo", "s.usda", code=None).stderr)
+
+    def test_a_mesh_for_a_structured_asset_names_the_file_that_takes_it(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "arm/")
+        self.write("m.obj", TETRAHEDRON)
+        arguments = ["add", "arm/arm.usda", "/arm/m=mesh", "--file", "m.obj"]
+        told = self.json(*arguments, code=2)["diagnostics"][-1]
+        self.assertEqual(told["rule"], "edit.no-file")
+        self.tenon(*arguments, "--in", told["fix"].split(": ")[1])
+
+
+class Quiet(Case):
+    """A robot of many links does not print as many lines."""
+
+    def robot_of_many_links(self):
+        parts = "".join(
+            f'<link name="l{i}"/><joint name="j{i}" type="revolute"><parent link="base"/><child '
+            f'link="l{i}"/><limit lower="-{i}.5" upper="1" effort="0" velocity="1"/></joint>'
+            f'<sensor name="s{i}"><parent link="l{i}"/></sensor>' for i in range(30))
+        self.write("r.urdf", f'<robot name="r"><link name="base"/>{parts}</robot>')
+        return self.tenon("convert", "r.urdf", "r/").stderr
+
+    def test_three_lines_of_a_kind(self):
+        text = self.robot_of_many_links()
+        self.assertLess(len(text.splitlines()), 20, text)
+        self.assertEqual(text.count("[urdf.zero-limit]"), 3, text)
+        self.assertIn("and 27 more like it", text)
+        self.assertIn('the sensor "s0" without a type', text)
+
+    def test_long_values_are_cut(self):
+        self.robot_of_many_links()
+        text = self.tenon("add", "r/r.usda", "/r/b=cube,body,collider").stdout
+        self.assertIn("characters in all)", text)
+        self.assertLess(max(map(len, text.splitlines())), 700)
+
+    def test_a_simulation_lists_joints_that_move(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "arm.usda", "--fix-base")
+        text = self.tenon("sim", "arm.usda", "--engine", "mujoco", "--duration", "0.01").stdout
+        joints = text[text.index("joint positions"):text.index("body positions")].splitlines()[1:]
+        self.assertEqual([line.split()[0] for line in joints], ["/arm/Physics/shoulder"])
+
+    def test_structure_names_the_file_to_open(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "arm.usda")
+        text = self.tenon("structure", "arm.usda", "-o", "made").stderr
+        self.tenon("info", re.search(r"wrote (\S+): \d+ files", text).group(1))
+
+
+class Packages(Case):
+    def test_a_missing_mesh_of_a_package_that_is_there(self):
+        mesh = '<visual><geometry><mesh filename="package://shop/{}.obj"/></geometry></visual>'
+        self.write("shop/a.obj", TETRAHEDRON)
+        self.write("r.urdf", '<robot name="r"><link name="a">' + mesh.format("a") +
+                   mesh.format("b") + "</link></robot>")
+        (found,) = [d for d in self.json("convert", "r.urdf", "r/", code=1)["diagnostics"]
+                    if d["rule"] == "urdf.mesh-missing"]
+        self.assertRegex(found["fix"], r'^put "b.obj" into the package\'s folder, shop, or give ')
+
+
 class Words(Case):
     def test_set_names_the_part_that_is_wrong(self):
         joint = '    def PhysicsRevoluteJoint "j"\n    {\n    }\n'

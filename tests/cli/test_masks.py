@@ -77,7 +77,8 @@ class Case(unittest.TestCase):
 
     def run_it(self, *words, code=0):
         done = subprocess.run([TENON, *map(str, words)], capture_output=True, text=True,
-                              check=False, cwd=self.folder, timeout=120)
+                              check=False, cwd=self.folder, timeout=120,
+                              env={**os.environ, "TENON_CHROMIUM": "/bin/true"})
         if code is not None:
             self.assertEqual(done.returncode, code, done.stdout[-2000:] + done.stderr[-2000:])
         return done

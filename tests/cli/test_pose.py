@@ -67,7 +67,8 @@ class Case(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
-        self.environment = {**os.environ, "XDG_STATE_HOME": str(self.folder / "state")}
+        self.environment = {**os.environ, "XDG_STATE_HOME": str(self.folder / "state"),
+                            "TENON_CHROMIUM": "/bin/true"}  # nothing is drawn with it
 
     def tenon(self, *arguments, code=0):
         done = subprocess.run([TENON, *map(str, arguments)], capture_output=True, text=True,

@@ -157,6 +157,7 @@ class Wrong(Case):
 
     def test_bad_toml(self):
         self.refused("engine = \n", "settings.syntax", 1)
+        self.refused("engine = mujoco\n", "settings.syntax", 1, "text in quotes, as in name =")
         self.refused("\n[check\n", "settings.syntax", 2)
         self.refused('engine = "mujoco"\nengine = "mujoco"\n', "settings.syntax", 2)
 

@@ -20,9 +20,13 @@ constexpr double kDegreesOfRadian = 180 / M_PI;
 
 bool turns(const Json& row) { return row["dof"].get<std::string>().starts_with("rot"); }
 
+/// Sums that cancel leave rounding errors, which tables show as 0.
 std::string effort(const Json& value, bool angular) {
-  return value.is_null() ? "unlimited"
-                         : rounded_text(value.get<double>()) + (angular ? " N m" : " N");
+  if (value.is_null()) {
+    return "unlimited";
+  }
+  const double number = value.get<double>();
+  return rounded_text(std::abs(number) < 1e-12 ? 0 : number) + (angular ? " N m" : " N");
 }
 
 std::string speed(const Json& value, bool angular) {
@@ -79,7 +83,8 @@ std::vector<std::string> drive_row(const Json& drive) {
 
 std::string drives_text(const Json& drives) {
   if (drives["drives"].empty()) {
-    return "no joint has a drive\n";
+    const std::string advice = "tenon set ASSET --drive JOINT=stiffness:10,damping:1 adds one";
+    return "no joint has a drive; " + advice + "\n";
   }
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"joint", "max effort", "speed limit", "weight to hold", "inertia", "followers"});

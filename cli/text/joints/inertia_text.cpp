@@ -35,7 +35,9 @@ std::vector<std::string> row_of(const Json& row) {
           number(row["held"]),
           number(row["free"]),
           turns ? "kg m^2" : "kg",
-          number(row["gravity"]),
+          row["gravity"].is_number() && std::abs(row["gravity"].get<double>()) < 1e-12
+              ? "0"  // rounding errors of sums that cancel
+              : number(row["gravity"]),
           turns ? "N m" : "N"};
 }
 

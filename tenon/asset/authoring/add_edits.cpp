@@ -244,6 +244,11 @@ class Addition {
         continue;
       }
       const bool instanced = pattern.find('*') != std::string_view::npos;
+      if (instanced && instance_.empty() && type() == Token("PhysicsFixedJoint")) {
+        return bad_option(wanted_.prim,
+                          "<" + wanted_.prim.str() + "> is fixed: it has no degree of freedom",
+                          "name another joint");
+      }
       if (instanced && instance_.empty()) {
         return bad_option(wanted_.prim,
                           "<" + wanted_.prim.str() + "> has several degrees of freedom",

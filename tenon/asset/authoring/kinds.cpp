@@ -274,17 +274,17 @@ std::vector<AuthoringOption> prim_options() {
       {"file-meters", "NUMBER", "", "Metres in a unit of the mesh file; without it 1"},
       {"file-up", "AXIS", "",
        "Up axis of the mesh file: Y or Z; without it Y for .gltf and .glb, else the asset's"},
-      {"prim", "PRIM", "", "Of that file, instead of its default prim"},
+      {"prim", "PRIM", "", "Prim of that file, instead of its default prim"},
       {"intensity", "NUMBER", "nits", "Brightness of a light"},
       {"color", "R,G,B", "", "Colour of a light"},
-      {"angle", "NUMBER", "degrees", "How large a distant light is"},
+      {"angle", "NUMBER", "degrees", "Angular size of a distant light"},
       {"texture", "FILE", "", "Picture of a dome light"},
       {"focal-length", "NUMBER", "tenths of a unit of length", "Of a camera"},
-      {"gravity-direction", "X,Y,Z", "", "Where gravity pulls; without it down"},
+      {"gravity-direction", "X,Y,Z", "", "Direction of gravity; without it down"},
       {"gravity-magnitude", "NUMBER", "units of length / s^2", "Gravity; without it the earth's"},
       {"static-friction", "NUMBER", "", "Friction of what rests"},
       {"dynamic-friction", "NUMBER", "", "Friction of what slides"},
-      {"restitution", "NUMBER", "", "How much it bounces, 0 to 1"},
+      {"restitution", "NUMBER", "", "Restitution, from 0 (none) to 1"},
   };
 }
 
@@ -309,11 +309,12 @@ std::vector<AuthoringOption> joint_options() {
 
 std::vector<AuthoringOption> state_options() {
   return {
-      {"velocity", "X,Y,Z", "units of length / s", "At the start"},
-      {"angular-velocity", "X,Y,Z", "degrees / s", "At the start"},
+      {"velocity", "X,Y,Z", "units of length / s", "Velocity at the start"},
+      {"angular-velocity", "X,Y,Z", "degrees / s", "Angular velocity at the start"},
       {"kinematic", "BOOL", "", "Moved by its transforms, not by forces"},
       {"asleep", "BOOL", "", "Rests until it is touched"},
-      {"approximation", "NAME", "", "How a mesh collides: convexHull, convexDecomposition, ..."},
+      {"approximation", "NAME", "",
+       "Collision shape of a mesh: convexHull, convexDecomposition, ..."},
       {"mass", "NUMBER", "kg", "Mass"},
       {"com", "X,Y,Z", "units of length", "Centre of mass, in the prim's space"},
       {"inertia", "X,Y,Z", "units of mass * length^2", "Diagonal of the inertia"},
@@ -321,19 +322,21 @@ std::vector<AuthoringOption> state_options() {
       {"material", "PRIM", "", "The material that is bound"},
       {"with", "PRIM", "", "The other prim of a pair"},
       {"dof", "NAME", "",
-       "Which degree of freedom: transX to rotZ, distance; a hinge or a slider "
+       "Degree of freedom: transX to rotZ, distance; a hinge or a slider "
        "needs none"},
       {"low", "NUMBER", "degrees or units of length", "Lower end; above the upper one: locked"},
       {"high", "NUMBER", "degrees or units of length", "Upper end"},
-      {"stiffness", "NUMBER", "force / unit of position", "Of a drive; per degree where it turns"},
-      {"damping", "NUMBER", "force / unit of velocity", "Of a drive; per degree where it turns"},
+      {"stiffness", "NUMBER", "force / unit of position",
+       "Stiffness of a drive; per degree where it turns"},
+      {"damping", "NUMBER", "force / unit of velocity",
+       "Damping of a drive; per degree where it turns"},
       {"max-force", "NUMBER", "units of force or torque", "Maximum drive force or torque"},
-      {"target-position", "NUMBER", "degrees or units of length", "Where a drive goes"},
-      {"target-velocity", "NUMBER", "the same / s", "How fast a drive goes"},
+      {"target-position", "NUMBER", "degrees or units of length", "Target position of a drive"},
+      {"target-velocity", "NUMBER", "the same / s", "Target velocity of a drive"},
       {"drive-type", "NAME", "", "force or acceleration"},
       {"leader", "PRIM", "", "The joint that is followed"},
-      {"multiplier", "NUMBER", "", "Of the leader's position"},
-      {"offset", "NUMBER", "degrees or units of length", "Added to it"},
+      {"multiplier", "NUMBER", "", "Factor of the leader's position"},
+      {"offset", "NUMBER", "degrees or units of length", "Offset of the follower"},
       {"variant", "SET=NAME", "", "The set and its variant"},
   };
 }

@@ -16,7 +16,7 @@ Error nothing_kept(const std::string& asset, const std::string& folder) {
   return Error(ErrorCode::NotFound, "no edit of this asset is kept")
       .in_file(asset)
       .with_rule("undo.none")
-      .with_fix("edits are kept in " + shown_path(folder) +
+      .with_fix("edits are kept in " + folder +
                 " while that can be written: the last 100 of all assets, 64 MB each");
 }
 

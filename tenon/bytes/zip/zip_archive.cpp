@@ -39,7 +39,9 @@ constexpr std::uint16_t kVersion = 10;
 constexpr std::uint16_t kDate = 0x21;  // 1980-01-01, the earliest; packages carry no dates
 
 Error damaged(std::string message) {
-  return Error(ErrorCode::Corrupt, std::move(message)).with_rule("package.damaged");
+  return Error(ErrorCode::Corrupt, std::move(message))
+      .with_rule("package.damaged")
+      .with_fix("copy or download the file again");
 }
 
 struct EndRecord {

@@ -96,6 +96,10 @@ bool read_header(LayerState& state) {
                           "this is " + std::string(foreign_format_name(foreign)) + ", not USD",
                           foreign_format_advice(foreign, shown_path(std::string(cursor.file()))));
   }
+  if (text.empty()) {
+    return cursor.fail_at(0, ErrorCode::Parse, "text.header", "the file is empty",
+                          "write it again, or name another file");
+  }
   if (!check_encoding(cursor)) {
     return false;
   }
