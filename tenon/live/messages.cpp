@@ -329,8 +329,8 @@ Json list_schema(Json items, std::size_t most, Side side) {
 
 /// Without what null and the meaning of the field add.
 Json value_schema(const Field& field, Side side) {
-  const Json number = {{"type", "number"}};
-  const Json path = {{"type", "string"}, {"pattern", "^/"}};
+  Json number = {{"type", "number"}};
+  Json path = {{"type", "string"}, {"pattern", "^/"}};
   switch (field.type) {
     case FieldType::Text:
       return side == Side::Told ? Json{{"type", "string"}}
