@@ -313,7 +313,7 @@ Result<void> check_fields(const MessageInfo& info, const Json& message) {
   return {};
 }
 
-/// What is asked has limits; what is told has every field that may not miss.
+/// Requests have limits; notices and answers have every field that is required.
 enum class Side : std::uint8_t { Asked, Told };
 
 Json object_schema(const Shape& shape, Side side);

@@ -90,7 +90,7 @@ def protocol(tables):
     parts = [HEAD]
     for name, schema in found.items():
         parts.append(f"\nexport interface {name} {members(schema, chr(10))}\n")
-    parts.append("\n/** What is asked: the fields of each request, and what is answered. */\n"
+    parts.append("\n/** Requests: their fields and answers. */\n"
                  "export interface Requests {\n")
     for row in tables["requests"]:
         properties = {name: field for name, field in row["schema"]["properties"].items()
@@ -99,7 +99,7 @@ def protocol(tables):
         answer = type_text(row["result"])
         parts.append(f"  /** {row['meaning']}. */\n"
                      f"  {row['name']}: {{ fields: {given}; answer: {answer} }};\n")
-    parts.append("}\n\n/** What is told. */\nexport interface Notices {\n")
+    parts.append("}\n\n/** Notices, by name. */\nexport interface Notices {\n")
     for row in tables["notices"]:
         parts.append(f"  /** {row['meaning']}. */\n"
                      f"  {row['name']}: {row['name'].capitalize()}Notice;\n")

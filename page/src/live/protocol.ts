@@ -355,7 +355,7 @@ export interface ProblemNotice {
   is: "problem";
 }
 
-/** What is asked: the fields of each request, and what is answered. */
+/** Requests: their fields and answers. */
 export interface Requests {
   /** Lets time go on. */
   play: { fields: Record<string, never>; answer: Record<string, never> };
@@ -441,7 +441,7 @@ export interface Requests {
   messages: { fields: Record<string, never>; answer: { protocol: number; requests: unknown[]; notices: unknown[]; } };
 }
 
-/** What is told. */
+/** Notices, by name. */
 export interface Notices {
   /** The first message to a page. */
   hello: HelloNotice;
