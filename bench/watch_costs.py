@@ -30,7 +30,7 @@ WATCHES = re.compile(
     r"engines::(EnergyBound|PassageWatch)::(note|begin|end)|"
     r"engines::mujoco::EnergyWatch::(restart|begin|end)|"
     r"engines::mujoco::PassageWatch::look)\(")
-STEP = re.compile(r"tenon::engines::\w+::\w+Simulation::step\(\)")
+STEP = re.compile(r"tenon::engines::(?:\w+::)?\w+Simulation::step\(\)")
 LINE = re.compile(r"^\s*([\d,]+) \([^)]*\)\s+(.*?)(?: \[[^\]]*\])?$")
 
 BOX = """    def Cube "box%d" (

@@ -23,8 +23,8 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
-ROOT = pathlib.Path(sys.argv[1])
-TENON = sys.argv[2]
+ROOT = pathlib.Path(sys.argv[1]).absolute()
+TENON = str(pathlib.Path(sys.argv[2]).absolute())
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 20
 ROBOTS = ROOT / "build/robots"
 SHARE = ROBOTS / "cmeel.prefix/share"
