@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "tenon/engines/physx/convert.h"
+#include "tenon/engines/scene_timeline.h"
 
 namespace tenon::engines::physx {
 namespace {
@@ -28,9 +29,7 @@ namespace {
 using scene::Index;
 using scene::Screw;
 
-constexpr double kNoticedMove = 0.02;   // [rad or m] of a coordinate, before inertias are new
-constexpr double kLeastMass = 1e-9;     // [kg]
-constexpr double kLeastMoment = 1e-13;  // [kg m^2]
+constexpr double kNoticedMove = 0.02;  // [rad or m] of a coordinate, before inertias are new
 
 double position_of(const Model& model, Index joint) {
   const JointMap& map = model.joints[joint];
@@ -166,7 +165,7 @@ void FixedTendons::set_coefficients(const scene::PhysicsScene& scene, const Mode
     }
   }
   const scene::JointTree tree(scene, model.forest, dofs_, poses, group.joints,
-                              {kLeastMass, kLeastMoment, scene::TiedMimics::Rigid});
+                              {kMinMass, kMinMoment, scene::TiedMimics::Rigid});
   const scene::TreeInertia inertia(tree.tree(), armatures(scene, model, tree));
   for (const std::size_t t : group.tendons) {
     set_coefficients(model.tendons[t], tree, inertia, part_of_step(model, model.tendons[t]),
