@@ -26,13 +26,6 @@ std::string legal_name(std::string_view text) {
   return name.empty() ? "_" : name;
 }
 
-Token NameScope::make(std::string_view wanted) {
-  const std::string base = legal_name(wanted);
-  std::string name = base;
-  while (!taken_.insert(name).second) {
-    name = base + "_" + std::to_string(++next_[base]);
-  }
-  return Token(name);
-}
+Token NameScope::make(std::string_view wanted) { return Token(names_.make(legal_name(wanted))); }
 
 }  // namespace tenon::convert

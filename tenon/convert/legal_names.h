@@ -4,9 +4,8 @@
 
 #include <string>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 
+#include "tenon/base/text/unique_names.h"
 #include "tenon/base/token.h"
 
 namespace tenon::convert {
@@ -20,8 +19,7 @@ class NameScope {
   Token make(std::string_view wanted);
 
  private:
-  std::unordered_set<std::string> taken_;
-  std::unordered_map<std::string, std::size_t> next_;  // number to try behind a name
+  UniqueNames names_;
 };
 
 /// `text` as an identifier: unchanged where it is one.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tenon/base/text/unique_names.h"
 #include "tenon/describe/robot_tree.h"
 #include "tenon/describe/scene_source.h"
 #include "tenon/stage/collections/material_binding.h"
@@ -32,7 +33,7 @@ class MaterialReader {
   stage::CollectionBindings bindings_;
   std::vector<robot::Material> materials_;
   std::map<Path, std::optional<robot::Index>> known_;
-  TakenNames names_;
+  UniqueNames names_;
 };
 
 }  // namespace tenon::describe

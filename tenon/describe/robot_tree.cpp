@@ -6,14 +6,6 @@ namespace tenon::describe {
 
 using robot::Index;
 
-std::string TakenNames::make(const std::string& wanted) {
-  std::string name = wanted;
-  while (!taken_.insert(name).second) {
-    name = wanted + "_" + std::to_string(++last_[wanted]);
-  }
-  return name;
-}
-
 Index RobotTree::add_link(Path prim, const std::string& name, const Pose& pose,
                           const Pose& in_body) {
   const auto number = static_cast<Index>(links_.size());

@@ -2,29 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "tenon/base/path.h"
+#include "tenon/base/text/unique_names.h"
 #include "tenon/robot/robot_model.h"
 
 /// Internal to this folder.
 namespace tenon::describe {
-
-/// Names that are given once.
-class TakenNames {
- public:
-  /// `wanted`, with a number behind it where that is taken.
-  std::string make(const std::string& wanted);
-
- private:
-  std::set<std::string> taken_;
-  std::map<std::string, std::size_t> last_;  // number behind a name
-};
 
 /// Links and joints while they are made, where the links stand, and which prims they are of.
 class RobotTree {
@@ -58,8 +46,8 @@ class RobotTree {
   std::vector<Pose> in_body_;  // (link_count)
   std::map<Path, robot::Index> link_of_prim_;
   std::optional<robot::Index> world_;
-  TakenNames link_names_;
-  TakenNames joint_names_;
+  UniqueNames link_names_;
+  UniqueNames joint_names_;
 };
 
 }  // namespace tenon::describe

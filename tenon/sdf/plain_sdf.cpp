@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/base/text/unique_names.h"
 
 namespace tenon::sdf {
 
@@ -163,13 +163,10 @@ class PlainSdf {
     }
     const bool reserved = name.empty() || name == "world" ||
                           (name.size() >= 4 && name.starts_with("__") && name.ends_with("__"));
-    if (reserved || taken_.contains(name)) {
+    if (reserved || taken_.is_taken(name)) {
       name += std::string(name.empty() ? "" : "_") + kind;
     }
-    const std::string base = name;
-    for (int i = 1; !taken_.insert(name).second; ++i) {
-      name = base + "_" + std::to_string(i);
-    }
+    name = taken_.make(name);
     if (name != wanted) {
       renamed_.push_back("\"" + wanted + "\" as \"" + name + "\"");
     }
@@ -215,20 +212,15 @@ class PlainSdf {
   /// Each has a name, and no two of a link the same.
   template <class Shape>
   static void name_shapes(std::vector<Shape>& shapes, const char* kind) {
-    std::set<std::string> taken;
+    UniqueNames names;
     for (Shape& shape : shapes) {
-      const std::string base = shape.name.empty() ? kind : shape.name;
-      std::string name = base;
-      for (int i = 1; !taken.insert(name).second; ++i) {
-        name = base + "_" + std::to_string(i);
-      }
-      shape.name = std::move(name);
+      shape.name = names.make(shape.name.empty() ? kind : shape.name);
     }
   }
 
   robot::RobotModel& model_;
   Diagnostics& diagnostics_;
-  std::set<std::string> taken_;
+  UniqueNames taken_;
   std::vector<std::string> renamed_;
 };
 

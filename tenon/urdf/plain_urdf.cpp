@@ -9,13 +9,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tenon/base/file_finding.h"
+#include "tenon/base/text/unique_names.h"
 
 namespace tenon::urdf {
 
@@ -34,10 +33,10 @@ class Replacement {
   Replacement(robot::RobotModel& model, Diagnostics& diagnostics)
       : model_(model), diagnostics_(diagnostics) {
     for (const robot::Link& link : model.links) {
-      names_.insert(link.name);
+      names_.take(link.name);
     }
     for (const robot::Joint& joint : model.joints) {
-      names_.insert(joint.name);
+      names_.take(joint.name);
     }
   }
 
@@ -102,17 +101,9 @@ class Replacement {
     shapes = std::move(result);
   }
 
-  std::string free_name(const std::string& wanted) {
-    std::string name = wanted;
-    while (!names_.insert(name).second) {
-      name = wanted + "_" + std::to_string(++last_[wanted]);
-    }
-    return name;
-  }
-
   Index add_link(const std::string& name, const robot::Link& child) {
     robot::Link link;
-    link.name = free_name(name);
+    link.name = names_.make(name);
     robot::Inertial& inertial = link.inertial.emplace();
     inertial.mass = kLeastInertia;
     inertial.inertia = Mat3d{};
@@ -146,12 +137,12 @@ class Replacement {
     first.axis = {{1, 0, 0}};
     first.frame = {};
     first.child = between[0];
-    first.name = free_name(name + "_x");
+    first.name = names_.make(name + "_x");
     std::array<robot::Joint, 2> more = {first, first};
     for (std::size_t i = 0; i < more.size(); ++i) {
       more[i].origin = {};
       more[i].axis = i == 0 ? Vec3d{{0, 1, 0}} : Vec3d{{0, 0, 1}};
-      more[i].name = free_name(name + (i == 0 ? "_y" : "_z"));
+      more[i].name = names_.make(name + (i == 0 ? "_y" : "_z"));
       more[i].parent = between[i];
       more[i].child = i == 0 ? between[1] : child;
     }
@@ -197,8 +188,7 @@ class Replacement {
 
   robot::RobotModel& model_;
   Diagnostics& diagnostics_;
-  std::set<std::string> names_;
-  std::map<std::string, std::size_t> last_;  // number behind a name
+  UniqueNames names_;
   std::size_t capsules_ = 0;
   std::vector<std::string> without_effort_;
   std::vector<std::string> without_speed_;
