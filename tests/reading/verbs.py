@@ -8,9 +8,9 @@ means the same to each: no file outside of these folders is opened.
 The verbs are those that the program names; one without a row here is a fault.
 """
 
+import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -89,24 +89,15 @@ def run(*words):
                           timeout=60)
 
 
-def names_of(*words):
-    """The verbs that a page of help lists."""
-    text = run(*words, "--help").stdout
-    at = re.search(r"^(sub)?commands:|^verbs:", text, re.IGNORECASE | re.MULTILINE)
-    return re.findall(r"^  ([a-z][a-z-]+)(?:\s{2,}|$)", text[at.end():] if at else "", re.MULTILINE)
-
-
 def all_verbs():
-    found = []
-    for verb in names_of():
-        inner = names_of(verb) if verb == "test-runner" else []
-        found += [f"{verb} {name}" for name in inner] or [verb]
+    """-> for each verb that the program has, the names of its options, from its own help."""
+    found = {}
+    for verb in json.loads(run("help", "--json").stdout)["verbs"]:
+        inner = verb["verbs"] if verb["name"] == "test-runner" else []
+        for row in inner or [verb]:
+            name = f"{verb['name']} {row['name']}" if inner else row["name"]
+            found[name] = {word for option in row["options"] for word in option["names"]}
     return found
-
-
-def lists_options(verb):
-    text = run(*verb.split(), "--help").stdout
-    return [option for option in OPTIONS if option not in text]
 
 
 def words_of(verb, asset, folder):
@@ -150,7 +141,7 @@ def main():
     for verb in verbs:
         if verb in WITHOUT:
             continue
-        faults += [f"{verb}: has no {option}" for option in lists_options(verb)]
+        faults += [f"{verb}: has no {option}" for option in OPTIONS if option not in verbs[verb]]
         if verb not in ROWS:
             faults.append(f"{verb}: this test has no row for it")
     for verb in ROWS:
