@@ -8,7 +8,8 @@
 //   a factor the ratio may be larger by that factor.
 //   A ball that meets two which touch shares its impulse with both at once. At a restitution of 1
 //   it comes back with a third of its speed on all three, where Newton's cradle stops it. With gaps
-//   of 5 % of their size between the balls all three are right.
+//   of 2 % of their size between the balls MuJoCo and PhysX still are wrong, with 5 % all three are
+//   right.
 // The rule on masses skips bodies that joints hold: these carry more than their own mass.
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ constexpr double kRatioOnSeveral = 100;  ///< of masses, shared by the supports
 constexpr double kSmallestStep = 1e-4;   ///< [s] that is proposed
 constexpr double kBouncy = 0.5;          ///< restitution of a pair
 constexpr double kProposedGap = 0.05;    ///< of the thickness of a body
+constexpr double kNarrowGap = 0.03;      ///< of the sizes of two; less is as if they touched
 constexpr double kSameVelocity = 1e-6;   ///< [m/s]
 
 bool moves_freely(const scene::PhysicsScene& scene, const std::optional<Index>& body) {
@@ -216,7 +218,7 @@ void check_simultaneous_impacts(const Subject& subject, Reporter& report) {
     return;
   }
   const std::vector<ColliderPair> contacts = contacts_at_start(scene, kAllOverlaps);
-  const BouncyRows bouncy(scene, contacts);
+  const BouncyRows bouncy(scene, contacts_at_start(scene, kAllOverlaps, kNarrowGap));
   const std::vector<bool> jointed = jointed_bodies(scene);
   const Supports supports = supports_of(scene, contacts);
   for (const auto& [first, row] : bouncy.rows()) {
@@ -229,8 +231,8 @@ void check_simultaneous_impacts(const Subject& subject, Reporter& report) {
     }
     Message message = counted(row.size(), "body", "bodies") + " of a restitution up to " +
                       digits(bouncy.bounciest()) +
-                      " touch at the start: solvers resolve an impact on all of them at once, and "
-                      "none passes it on as a row of balls does";
+                      " touch at the start, or nearly: solvers resolve an impact on all of them at "
+                      "once, and none passes it on as a row of balls does";
     for (const Index body : row) {
       if (body != first) {
         message.about(scene.bodies[body].path, RelatedRole::Body);

@@ -4,9 +4,8 @@
 // Overlaps and contacts are found by sweep and prune: solids sorted by their low x meet only those
 // that begin before they end. World boxes come before the exact test. For overlaps the smaller
 // solid of a pair is shrunk by a tenth, so that touching and resting contacts are none; for
-// contacts each solid is grown by a hundredth, so that gaps of rounding are none. Only convex
-// shapes take part. Exact tests have a limit, as a heap of bodies in one place has millions of
-// pairs.
+// contacts each solid is grown, so that small gaps are none. Only convex shapes take part. Exact
+// tests have a limit, as a heap of bodies in one place has millions of pairs.
 #include "tenon/check/overlaps/overlaps.h"
 
 #include <algorithm>
@@ -24,9 +23,8 @@ using scene::ShapeKind;
 
 /// The smaller of two solids may reach this part of its size into the other.
 constexpr double kDepth = 0.1;
-constexpr double kGap = 0.01;          ///< of the half diagonal, that a touching solid is grown by
-constexpr double kLargestGap = 0.005;  ///< [m]
-constexpr double kLift = 0.02;         ///< of the smaller solid, that one is moved by
+constexpr double kLargestGap = 0.005;        ///< [m]
+constexpr double kLift = 0.02;               ///< of the smaller solid, that one is moved by
 constexpr std::size_t kMaxSteps = 50000000;  ///< of the sweep, where most shapes are side by side
 
 Pose world_pose(const scene::PhysicsScene& scene, const Collider& collider) {
@@ -68,21 +66,22 @@ Placed placed_solid(const scene::PhysicsScene& scene, Index index) {
 }
 
 /// A little larger, so that it reaches what it touches.
-void grow(Placed& item) {
+void grow(Placed& item, double gap) {
   const double half = item.size() / 2;
   if (half > 0) {
-    item.solid.keep = 1 + std::fmin(kGap * half, kLargestGap) / half;
+    item.solid.keep = 1 + std::fmin(gap * half, kLargestGap) / half;
     std::tie(item.low, item.high) = bounds_of(item.solid);
   }
 }
 
-std::vector<Placed> placed_solids(const scene::PhysicsScene& scene, bool grown) {
+/// Each grown by `gap` of its half diagonal.
+std::vector<Placed> placed_solids(const scene::PhysicsScene& scene, double gap) {
   std::vector<Placed> placed;
   for (Index i = 0; i < scene.colliders.size(); ++i) {
     if (scene.colliders[i].enabled && is_convex(scene.colliders[i].shape)) {
       placed.push_back(placed_solid(scene, i));
-      if (grown) {
-        grow(placed.back());
+      if (gap > 0) {
+        grow(placed.back(), gap);
       }
     }
   }
@@ -142,11 +141,12 @@ std::vector<ColliderPair> near_pairs(const scene::PhysicsScene& scene,
 }  // namespace
 
 std::vector<ColliderPair> overlaps_at_start(const scene::PhysicsScene& scene, std::size_t most) {
-  return near_pairs(scene, placed_solids(scene, false), most, reach_into);
+  return near_pairs(scene, placed_solids(scene, 0), most, reach_into);
 }
 
-std::vector<ColliderPair> contacts_at_start(const scene::PhysicsScene& scene, std::size_t most) {
-  return near_pairs(scene, placed_solids(scene, true), most,
+std::vector<ColliderPair> contacts_at_start(const scene::PhysicsScene& scene, std::size_t most,
+                                            double gap) {
+  return near_pairs(scene, placed_solids(scene, gap), most,
                     [](const Placed& a, const Placed& b) { return overlap(a.solid, b.solid); });
 }
 

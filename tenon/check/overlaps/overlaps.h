@@ -20,9 +20,13 @@ using ColliderPair = std::pair<scene::Index, scene::Index>;
 /// smaller one; at most `most`.
 std::vector<ColliderPair> overlaps_at_start(const scene::PhysicsScene& scene, std::size_t most);
 
-/// Pairs of convex colliders that may collide and have at most a hundredth of their sizes between
-/// them at the start, or overlap; at most `most`.
-std::vector<ColliderPair> contacts_at_start(const scene::PhysicsScene& scene, std::size_t most);
+/// Between colliders that touch: what rounding leaves, as a part of their sizes.
+inline constexpr double kRoundedGap = 0.01;
+
+/// Pairs of convex colliders that may collide and have at most `gap` of their sizes between them at
+/// the start, or overlap; at most `most`.
+std::vector<ColliderPair> contacts_at_start(const scene::PhysicsScene& scene, std::size_t most,
+                                            double gap = kRoundedGap);
 
 /// Of such a pair: moved along `down` the upper one goes into the lower one, moved back it comes
 /// off.
