@@ -32,6 +32,7 @@ using NotMapped = scene::NotRead;
 enum class EventKind : std::uint8_t {
   JointBroke,     ///< for good
   PassedThrough,  ///< a body was on one side of a collider before a step, on the other after it
+  ThrownBack,     ///< a joint ran into a limit, which gave some of its speed back
 };
 
 /// Something that happened once while the simulation ran.

@@ -43,6 +43,34 @@ class RunReport {
     }
   }
 
+  /// About the first; a limit that gives way takes most of the speed.
+  void rebounds(const std::vector<engines::Event>& events) {
+    const engines::Event* first = nullptr;
+    std::size_t count = 0;
+    for (const engines::Event& event : events) {
+      if (event.kind == engines::EventKind::ThrownBack) {
+        first = first == nullptr ? &event : first;
+        ++count;
+      }
+    }
+    if (first == nullptr) {
+      return;
+    }
+    Message message = "at " + shortest(first->time) + " s the joint " + first->what;
+    for (const engines::Event& event : events) {
+      if (event.kind == engines::EventKind::ThrownBack && event.prim != first->prim) {
+        message.about(event.prim, RelatedRole::Joint);
+      }
+    }
+    if (count > 1) {
+      message += count == 2 ? ", and so was one more"
+                            : ", and so were " + std::to_string(count - 1) + " more";
+    }
+    add("sim.limit-rebound", first->prim, std::move(message),
+        "author mjc:solreflimit of MjcJointAPI: with (0.0044, 8) less than a tenth of it is left",
+        Severity::Info);
+  }
+
   void joints(JointFault::Kind kind) {
     const JointFault* worst = nullptr;
     for (const JointFault& fault : faults_.joints) {
@@ -188,6 +216,7 @@ void report_faults(const scene::PhysicsScene& scene, const RunFaults& faults,
                    const std::string& engine) {
   RunReport report(scene, faults, diagnostics, engine);
   report.passages(events);
+  report.rebounds(events);
   report.joints(JointFault::Kind::Shakes);
   report.joints(JointFault::Kind::BeyondLimit);
   report.joints(JointFault::Kind::Sags);

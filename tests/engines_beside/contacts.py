@@ -3,8 +3,8 @@
 """Scenes of things that touch, or are kept from it: shapes, materials, filters.
 
 A box that slides lies on its floor from the start, at exact contact; it is flat, so that it does
-not tip. It is slow, since MuJoCo lets what begins to slide fast hop. Rest is compared where it is
-reached.
+not tip. It is slow, since plain MuJoCo, as Newton has it, lets what begins to slide fast hop. Rest
+is compared where it is reached.
 """
 
 from author import body, floor, group, material, place, plane, prim, scene, static
@@ -216,6 +216,16 @@ def slide(name, shows, materials, of_floor, of_box, speed=0.8, times=(0.1, 0.3),
 def friction():
     yield slide("slide", "friction 0.5 brakes a box", [rough()], ROUGH, ROUGH)
     yield slide("slide_slow", "friction 0.1 brakes a box", [rough(0.1)], ROUGH, ROUGH)
+    yield slide(
+        "slide_fast",
+        "a box that begins to slide at 5 m/s",
+        [rough()],
+        ROUGH,
+        ROUGH,
+        speed=5.0,
+        times=(0.1, 0.5),
+        engines=(OVPHYSX,),
+    )
     yield slide("slide_free", "no friction", [rough(0.0)], ROUGH, ROUGH, engines=(OVPHYSX,))
     yield slide(
         "slide_stop",

@@ -136,6 +136,7 @@ struct ModelMaps {
   ContactFilter filter;
   Surfaces surfaces;
   bool curved_shapes = false;  ///< see build/touching.h
+  bool sliding = false;        ///< friction is softened where surfaces slide
   std::vector<NotMapped> not_mapped;
   std::vector<int> auxiliary_bodies;  ///< MuJoCo bodies whose weights compile() has set
   /// (tendon_count) into `drives`, of the tendons that are drives; -1: of others. Empty: none is.

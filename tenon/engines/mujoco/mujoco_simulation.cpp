@@ -24,6 +24,7 @@
 #include "tenon/engines/mujoco/run/read_state.h"
 #include "tenon/engines/scene_timeline.h"
 #include "tenon/engines/watches/passage_watch.h"
+#include "tenon/math/angle.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -111,6 +112,7 @@ void MujocoSimulation::connect() {
   caps_ = VelocityCaps(*scene_, model_);
   energy_watch_ = EnergyWatch(*scene_, model_);
   passages_ = PassageWatch(*scene_, model_);
+  limits_ = LimitWatch(*scene_, model_);
   if (timeline_ != nullptr) {
     bounds_ = MovingBounds(*scene_, model_);
     breaking_ = Breaking(*scene_, model_);
@@ -225,10 +227,24 @@ void MujocoSimulation::note_broken(const Restart& restart) {
   }
 }
 
+void MujocoSimulation::note_rebounds() {
+  for (const LimitWatch::Rebound& rebound : limits_.look(model_)) {
+    const double unit = rebound.angular ? kDegreesPerRadian : 1;
+    const char* const name = rebound.angular ? "degrees/s" : "m/s";
+    char what[96];
+    std::snprintf(what, sizeof what, "was thrown back by its limit with %.3g of %.3g %s",
+                  rebound.after * unit, rebound.before * unit, name);
+    events_.push_back({time(), scene_->joints[rebound.joint].path, what, EventKind::ThrownBack});
+  }
+}
+
 // Computed quantities are of the beginning of the step, coordinates and velocities of its end.
 Result<void> MujocoSimulation::watch() {
   for (const PassageWatch::Passage& passage : passages_.look(model_)) {
     events_.push_back(passage_event(*scene_, time(), passage.body, passage.collider, passage.step));
+  }
+  if (model_.data->nl > 0) {
+    note_rebounds();
   }
   const std::optional<EnergyWatch::Growth> growth = energy_watch_.end(model_);
   if (!growth) {

@@ -11,6 +11,7 @@
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/run/breaking.h"
 #include "tenon/engines/mujoco/run/energy_watch.h"
+#include "tenon/engines/mujoco/run/limit_watch.h"
 #include "tenon/engines/mujoco/run/moving_bounds.h"
 #include "tenon/engines/mujoco/run/passage_watch.h"
 #include "tenon/engines/mujoco/run/saved_run.h"
@@ -105,6 +106,7 @@ class MujocoSimulation final : public SteeredSimulation {
   Result<void> replay(const SavedRun& run);
   Result<void> check_run(const SavedRun& run) const;
   void note_broken(const Restart& restart);
+  void note_rebounds();
   Result<void> watch();
   void bring_up_to_date() const;
   StateOwner owner() const;
@@ -121,6 +123,7 @@ class MujocoSimulation final : public SteeredSimulation {
   Triggers triggers_;
   EnergyWatch energy_watch_;
   PassageWatch passages_;
+  LimitWatch limits_;
   std::optional<StepOutputs> outputs_;
   mutable bool stale_ = true;
 };

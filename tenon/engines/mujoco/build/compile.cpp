@@ -393,6 +393,7 @@ void connect_geoms(Model& model, ContactFilter filter, Surfaces surfaces) {
   model.filter = std::move(filter);
   model.surfaces = std::move(surfaces);
   model.curved_shapes = has_curved_shapes(*model.model);
+  model.sliding = softens_sliding(*model.model);
 }
 
 void report_overlaps(const scene::PhysicsScene& scene, const Model& model,

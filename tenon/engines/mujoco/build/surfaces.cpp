@@ -14,9 +14,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
+
+#include "tenon/math/vector.h"
 
 namespace tenon::engines::mujoco {
 namespace {
@@ -28,6 +31,10 @@ constexpr double kStiffSteps = 0.25;       // natural frequency times time step,
 constexpr int kReboundSteps = 13;          // half a period of it: pi / 0.25
 constexpr double kSoftSteps = 0.16;        // the same without bounce
 constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, or the contact rings
+// Friction of what slides is as firm as this much acceleration into the other body, the load that
+// the depth shows and that of an impact take, and brakes within 0.1 s.
+constexpr double kPressing = 20;      // [m/s^2]
+constexpr double kLeastBraking = 10;  // [1/s]
 // Each restitution takes a bisection of a millisecond. Where there are very many, further ones are
 // rounded by less than the error that the springs have anyway.
 constexpr std::size_t kExactRestitutions = 256;
@@ -240,6 +247,54 @@ void resist_turning(const SurfaceKind& a, const SurfaceKind& b, mjContact& conta
   contact.friction[2] = std::max(contact.friction[0] * radius, mjMINMU);
 }
 
+// Friction of hard contacts whose softness is ours.
+bool may_soften(const Surfaces& surfaces, const mjContact& contact) {
+  if (contact.dim < 3 || contact.exclude != 0 || contact.solref[1] >= 0 ||
+      contact.solreffriction[1] != 0) {
+    return false;
+  }
+  return std::all_of(std::begin(contact.geom), std::end(contact.geom), [&](int geom) {
+    return geom >= 0 && surfaces.geom_surface[static_cast<std::size_t>(geom)] >= 0 &&
+           surfaces.keeps_solref[static_cast<std::size_t>(geom)] == 0;
+  });
+}
+
+// What presses on a contact that rests at a depth, as an acceleration; `reference` is -solref[0].
+double load_at(double reference, double depth) {
+  const double d = impedance(depth) / kHighImpedance;
+  return reference * d * d * depth / (1 - d * kHighImpedance);
+}
+
+// Of the point of a geom's body [m/s].
+Vec3d velocity_of(const mjModel& model, const mjData& data, int geom, const mjtNum* point) {
+  const std::ptrdiff_t body = model.geom_bodyid[geom];
+  const mjtNum* const motion = data.cvel + 6 * body;  // about the centre of mass of the tree
+  const Vec3d center = read_vector(data.subtree_com + std::ptrdiff_t{3} * model.body_rootid[body]);
+  return read_vector(motion + 3) + cross(read_vector(motion), read_vector(point) - center);
+}
+
+// How a unit force between the bodies accelerates them against each other at the contact [1/kg]; as
+// if they were on no joints.
+double mobility(const mjModel& model, const mjData& data, const mjContact& contact,
+                const Vec3d& direction) {
+  double sum = 0;
+  for (const int geom : contact.geom) {
+    const std::ptrdiff_t body = model.geom_bodyid[geom];
+    if (model.body_weldid[body] == 0 || model.body_mass[body] <= 0) {
+      continue;
+    }
+    sum += 1 / model.body_mass[body];
+    const Vec3d arm = read_vector(contact.pos) - read_vector(data.xipos + 3 * body);
+    const Vec3d moment = cross(arm, direction);
+    const mjtNum* const axes = data.ximat + 9 * body;  // columns
+    for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
+      const double part = dot(Vec3d{axes[axis], axes[3 + axis], axes[6 + axis]}, moment);
+      sum += part * part / std::max(model.body_inertia[3 * body + axis], mjMINVAL);
+    }
+  }
+  return std::max(sum, mjMINVAL);
+}
+
 }  // namespace
 
 bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
@@ -268,6 +323,51 @@ bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
       resist_turning(kind_a, kind_b, contact);
     }
     changed = true;
+  }
+  return changed;
+}
+
+bool softens_sliding(const mjModel& model) {
+  const bool has_friction =
+      std::any_of(model.geom_condim, model.geom_condim + model.ngeom, [](int n) { return n > 1; });
+  const bool steps_inside =  // where MuJoCo evaluates a step by itself
+      model.opt.integrator == mjINT_RK4 && (model.opt.enableflags & mjENBL_SLEEP) != 0;
+  return has_friction && model.opt.cone == mjCONE_ELLIPTIC && !steps_inside;
+}
+
+bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data) {
+  bool changed = false;
+  bool has_velocities = false;
+  for (int i = 0; i < data.ncon; ++i) {
+    mjContact& contact = data.contact[i];
+    if (!may_soften(surfaces, contact)) {
+      continue;
+    }
+    if (!has_velocities) {  // of the last step are those from before it
+      mj_comVel(&model, &data);
+      has_velocities = true;
+    }
+    const Vec3d apart = velocity_of(model, data, contact.geom[1], contact.pos) -
+                        velocity_of(model, data, contact.geom[0], contact.pos);
+    const Vec3d normal = read_vector(contact.frame);
+    const double closing = -dot(apart, normal);
+    const double sliding = length(apart + normal * closing);
+    const double pressing = kPressing - contact.solref[1] * std::max(0.0, closing) +
+                            load_at(-contact.solref[0], std::max(0.0, -contact.dist));
+    const double firm = -contact.solref[1] * sliding;
+    const double least = contact.friction[0] * pressing;
+    if (std::max(kLeastBraking * sliding, least) >= firm) {
+      continue;
+    }
+    const Vec3d along = (apart + normal * closing) * (1 / sliding);
+    const double turning =
+        mobility(model, data, contact, along) / mobility(model, data, contact, normal);
+    const double enough = std::max(kLeastBraking * sliding, least * std::max(1.0, turning));
+    if (enough < firm) {
+      contact.solreffriction[0] = 0;
+      contact.solreffriction[1] = -enough / sliding;
+      changed = true;
+    }
   }
   return changed;
 }

@@ -21,4 +21,11 @@ std::array<double, 2> contact_solref(double restitution, double time_step);
 /// Writes the values of pairs into the made contacts; true when any contact was changed.
 bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data);
 
+/// Whether friction of a model is softened where surfaces slide.
+bool softens_sliding(const mjModel& model);
+
+/// Softens the friction of contacts that slide, so that they stay down: in MuJoCo's cones friction
+/// that brakes hard also pushes apart. After apply_surfaces; true when any contact was changed.
+bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data);
+
 }  // namespace tenon::engines::mujoco

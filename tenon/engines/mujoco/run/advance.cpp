@@ -25,8 +25,9 @@ namespace {
 bool finish_contacts(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
-  const bool changed = model.surfaces.by_contact && apply_surfaces(model.surfaces, m, d);
-  return (model.curved_shapes && leave_out_touching(*m, *d)) || changed;
+  bool changed = model.surfaces.by_contact && apply_surfaces(model.surfaces, m, d);
+  changed = (model.curved_shapes && leave_out_touching(*m, *d)) || changed;
+  return (model.sliding && soften_sliding(model.surfaces, *m, *d)) || changed;
 }
 
 // mj_step1 by its parts, of which a model without sensors has these.

@@ -7,12 +7,13 @@
 
 namespace tenon::engines::mujoco {
 
-/// One step of MuJoCo, with the friction of pairs of materials. A FinishScope of the model lives.
+/// One step of MuJoCo, with the friction of pairs of materials and of what slides. A FinishScope of
+/// the model lives.
 void advance(Model& model);
 
 /// Whether something is written into contacts before constraints are made of them.
 inline bool finishes_contacts(const Model& model) {
-  return model.surfaces.by_contact || model.curved_shapes;
+  return model.surfaces.by_contact || model.curved_shapes || model.sliding;
 }
 
 /// While one lives, contacts of `model` are finished on this thread in each of the evaluations of
