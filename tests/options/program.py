@@ -76,7 +76,7 @@ class Program:
         (self.assets / "settled/tenon.toml").write_text('engine = "jolt"\n')
         fake = self.root / "tests/view/fake_browser.py"
         hanging = self.folder / "hanging_browser"
-        hanging.write_text(f'#!/bin/sh\nTENON_FAKE_BROWSER=hangs exec {fake} "$@"\n')
+        hanging.write_text(f'#!/bin/sh\nTENON_FAKE_BROWSER=hangs exec "{fake}" "$@"\n')
         hanging.chmod(0o755)
 
     def filled(self, words, engine, port=0):

@@ -31,6 +31,7 @@ CALLS = ("open,openat,creat,close,dup,dup2,dup3,fcntl,write,pwrite64,ftruncate,f
 LINE = re.compile(r"^(\d+) +(\w+)\((.*)\) += (-?\d+|\?)")
 UNFINISHED = re.compile(r"^(\d+) +(.*) <unfinished \.\.\.>$")
 RESUMED = re.compile(r"^(\d+) +<\.\.\. \w+ resumed>(.*)$")
+CLONE = re.compile(r"\d+ +(clone3?|v?fork)\(")
 TEXT = re.compile(r'"((?:\\x[0-9a-f]{2})*)"')
 JOURNAL = ".tenon-journal"
 MOST_PENDING = 7  # all subsets of that many; of more, some
@@ -145,15 +146,22 @@ class Disk:
 
 
 def lines_of(log):
-    """Whole lines, those put together that strace had to interrupt."""
-    begun = {}
+    """Whole lines, those put together that strace had to interrupt: where the call ends, or for a
+    new process, which may act before that is seen, where it begins."""
+    lines, begun = [], {}
     for line in log.read_text(encoding="ascii", errors="replace").splitlines():
         if found := UNFINISHED.match(line):
-            begun[found[1]] = line[:-len(" <unfinished ...>")]
+            begun[found[1]] = (len(lines), line[:-len(" <unfinished ...>")])
+            lines.append("")
         elif found := RESUMED.match(line):
-            yield begun.pop(found[1], found[1] + " x(") + found[2]
+            place, start = begun.pop(found[1], (None, found[1] + " x("))
+            if place is not None and CLONE.match(start):
+                lines[place] = start + found[2]
+            else:
+                lines.append(start + found[2])
         else:
-            yield line
+            lines.append(line)
+    return [line for line in lines if line]
 
 
 def decoded(text):
@@ -191,14 +199,9 @@ class Replay:
         self.open.setdefault(process, {})
         texts = TEXT.findall(arguments)
         words = TEXT.sub("TEXT", arguments).split(", ")
-        if call in ("clone", "clone3", "fork", "vfork"):
-            # The child may have opened files before the parent's call is seen to return.
-            early = self.open.get(result, {})
-            if "CLONE_FILES" in arguments:
-                self.open[process].update(early)
-                self.open[result] = self.open[process]
-            else:
-                self.open[result] = {**self.open[process], **early}
+        if CLONE.match(line):
+            shared = "CLONE_FILES" in arguments
+            self.open[result] = self.open[process] if shared else dict(self.open[process])
             return False
         handler = getattr(self, "do_" + call, None)
         return bool(handler and handler(process, words, texts, result))

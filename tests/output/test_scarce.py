@@ -28,10 +28,10 @@ MEGABYTE = 1 << 20
 NOBODY = 65534
 EXITS = {0, 1, 2, 3, 4, 130}
 
-# Name, resource, the values.
+# Name, resource, the values. Where not even the program's own 30 MB fit, Linux ends it with a signal.
 LIMITS = (
     ("addresses", resource.RLIMIT_AS,
-     [size * MEGABYTE for size in (30, 60, 75, 90, 105, 120, 140, 160, 220, 300, 400, 600)]),
+     [size * MEGABYTE for size in (45, 60, 75, 90, 105, 120, 140, 160, 220, 300, 400, 600)]),
     ("files", resource.RLIMIT_NOFILE, [3, 4, 5, 6, 7, 8, 10, 12, 16]),
     ("threads", resource.RLIMIT_NPROC, [0, 1]),
     ("stack", resource.RLIMIT_STACK, [64 << 10, 256 << 10]),
