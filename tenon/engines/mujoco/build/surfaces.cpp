@@ -33,8 +33,10 @@ constexpr double kSoftSteps = 0.16;        // the same without bounce
 constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, or the contact rings
 // Friction of what slides is as firm as this much acceleration into the other body, the load that
 // the depth shows and that of an impact take, and brakes within 0.1 s.
-constexpr double kPressing = 20;      // [m/s^2]
+constexpr double kPressing = 50;      // [m/s^2]
 constexpr double kLeastBraking = 10;  // [1/s]
+// MuJoCo's friction gives way before it holds all of a load; of high friction more would hop.
+constexpr double kMostMargin = 2;
 // Each restitution takes a bisection of a millisecond. Where there are very many, further ones are
 // rounded by less than the error that the springs have anyway.
 constexpr std::size_t kExactRestitutions = 256;
@@ -352,10 +354,12 @@ bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data
     const Vec3d normal = read_vector(contact.frame);
     const double closing = -dot(apart, normal);
     const double sliding = length(apart + normal * closing);
-    const double pressing = kPressing - contact.solref[1] * std::max(0.0, closing) +
-                            load_at(-contact.solref[0], std::max(0.0, -contact.dist));
+    const double load = load_at(-contact.solref[0], std::max(0.0, -contact.dist)) -
+                        contact.solref[1] * std::max(0.0, closing);
     const double firm = -contact.solref[1] * sliding;
-    const double least = contact.friction[0] * pressing;
+    const double friction = contact.friction[0];
+    const double margin = std::clamp(1 / friction, 1.0, kMostMargin);
+    const double least = friction * (kPressing + margin * load);
     if (std::max(kLeastBraking * sliding, least) >= firm) {
       continue;
     }
