@@ -28,7 +28,7 @@ MEGABYTE = 1 << 20
 NOBODY = 65534
 EXITS = {0, 1, 2, 3, 4, 130}
 
-# Name, resource, the values. Where not even the program's own 30 MB fit, Linux ends it with a signal.
+# Name, resource, the values. Linux ends a program by a signal where not even its own 30 MB fit.
 LIMITS = (
     ("addresses", resource.RLIMIT_AS,
      [size * MEGABYTE for size in (45, 60, 75, 90, 105, 120, 140, 160, 220, 300, 400, 600)]),

@@ -35,8 +35,6 @@ constexpr double kMaxDamping = 0.9;        // damping times time step: below 1, 
 // the depth shows and that of an impact take, and brakes within 0.1 s.
 constexpr double kPressing = 50;      // [m/s^2]
 constexpr double kLeastBraking = 10;  // [1/s]
-// MuJoCo's friction gives way before it holds all of a load; of high friction more would hop.
-constexpr double kMostMargin = 2;
 // Each restitution takes a bisection of a millisecond. Where there are very many, further ones are
 // rounded by less than the error that the springs have anyway.
 constexpr std::size_t kExactRestitutions = 256;
@@ -261,12 +259,6 @@ bool may_soften(const Surfaces& surfaces, const mjContact& contact) {
   });
 }
 
-// What presses on a contact that rests at a depth, as an acceleration; `reference` is -solref[0].
-double load_at(double reference, double depth) {
-  const double d = impedance(depth) / kHighImpedance;
-  return reference * d * d * depth / (1 - d * kHighImpedance);
-}
-
 // Of the point of a geom's body [m/s].
 Vec3d velocity_of(const mjModel& model, const mjData& data, int geom, const mjtNum* point) {
   const std::ptrdiff_t body = model.geom_bodyid[geom];
@@ -329,6 +321,47 @@ bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
   return changed;
 }
 
+namespace {
+
+// Of its second body against the first [m/s].
+Vec3d velocity_at(const mjModel& model, const mjData& data, const mjContact& contact) {
+  return velocity_of(model, data, contact.geom[1], contact.pos) -
+         velocity_of(model, data, contact.geom[0], contact.pos);
+}
+
+// What presses on a contact, as an acceleration: what keeps it at its depth, and an impact.
+double load_on(const mjModel& model, const mjData& data, const mjContact& contact) {
+  const double depth = std::max(0.0, -contact.dist);
+  const double d = impedance(depth);
+  const double part = d / kHighImpedance;
+  const double closing = -dot(velocity_at(model, data, contact), read_vector(contact.frame));
+  return -contact.solref[0] * part * part * depth / (1 - d) -
+         contact.solref[1] * std::max(0.0, closing);
+}
+
+bool soften_friction(const mjModel& model, const mjData& data, double load, mjContact& contact) {
+  const Vec3d normal = read_vector(contact.frame);
+  Vec3d along = velocity_at(model, data, contact);
+  along = along - normal * dot(along, normal);
+  const double sliding = length(along);
+  const double firm = -contact.solref[1] * sliding;
+  const double least = contact.friction[0] * (kPressing + load);
+  if (std::max(kLeastBraking * sliding, least) >= firm) {
+    return false;
+  }
+  const double turning = mobility(model, data, contact, along * (1 / sliding)) /
+                         mobility(model, data, contact, normal);
+  const double enough = std::max(kLeastBraking * sliding, least * std::max(1.0, turning));
+  if (enough >= firm) {
+    return false;
+  }
+  contact.solreffriction[0] = 0;
+  contact.solreffriction[1] = -enough / sliding;
+  return true;
+}
+
+}  // namespace
+
 bool softens_sliding(const mjModel& model) {
   const bool has_friction =
       std::any_of(model.geom_condim, model.geom_condim + model.ngeom, [](int n) { return n > 1; });
@@ -338,39 +371,31 @@ bool softens_sliding(const mjModel& model) {
 }
 
 bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data) {
+  const auto bodies = [&](int i) {
+    const int* const geoms = data.contact[i].geom;
+    return std::pair(geoms[0] < 0 ? -1 : model.geom_bodyid[geoms[0]],
+                     geoms[1] < 0 ? -1 : model.geom_bodyid[geoms[1]]);
+  };
   bool changed = false;
   bool has_velocities = false;
-  for (int i = 0; i < data.ncon; ++i) {
-    mjContact& contact = data.contact[i];
-    if (!may_soften(surfaces, contact)) {
-      continue;
+  for (int begin = 0, end = 0; begin < data.ncon; begin = end) {
+    while (end < data.ncon && bodies(end) == bodies(begin)) {
+      ++end;
     }
-    if (!has_velocities) {  // of the last step are those from before it
-      mj_comVel(&model, &data);
-      has_velocities = true;
+    double load = 0;  // a body that slaps down on one side loads the other
+    for (int i = begin; i < end; ++i) {
+      if (may_soften(surfaces, data.contact[i])) {
+        if (!has_velocities) {  // of the last step are those from before it
+          mj_comVel(&model, &data);
+          has_velocities = true;
+        }
+        load = std::max(load, load_on(model, data, data.contact[i]));
+      }
     }
-    const Vec3d apart = velocity_of(model, data, contact.geom[1], contact.pos) -
-                        velocity_of(model, data, contact.geom[0], contact.pos);
-    const Vec3d normal = read_vector(contact.frame);
-    const double closing = -dot(apart, normal);
-    const double sliding = length(apart + normal * closing);
-    const double load = load_at(-contact.solref[0], std::max(0.0, -contact.dist)) -
-                        contact.solref[1] * std::max(0.0, closing);
-    const double firm = -contact.solref[1] * sliding;
-    const double friction = contact.friction[0];
-    const double margin = std::clamp(1 / friction, 1.0, kMostMargin);
-    const double least = friction * (kPressing + margin * load);
-    if (std::max(kLeastBraking * sliding, least) >= firm) {
-      continue;
-    }
-    const Vec3d along = (apart + normal * closing) * (1 / sliding);
-    const double turning =
-        mobility(model, data, contact, along) / mobility(model, data, contact, normal);
-    const double enough = std::max(kLeastBraking * sliding, least * std::max(1.0, turning));
-    if (enough < firm) {
-      contact.solreffriction[0] = 0;
-      contact.solreffriction[1] = -enough / sliding;
-      changed = true;
+    for (int i = begin; i < end; ++i) {
+      if (may_soften(surfaces, data.contact[i])) {
+        changed = soften_friction(model, data, load, data.contact[i]) || changed;
+      }
     }
   }
   return changed;
