@@ -29,6 +29,7 @@
 #include "tenon/asset_policy.h"
 #include "tenon/base/assignment.h"
 #include "tenon/base/text/counted.h"
+#include "tenon/base/text/shell_word.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/structure/layout.h"
@@ -382,6 +383,17 @@ int run_conversion(Report& report, const ConvertArguments& options) {
   return report.finish(code, std::move(body));
 }
 
+/// From one description to another by way of an asset.
+Error needs_two_steps(const ConvertArguments& options) {
+  const std::string asset = fs::path(options.output).replace_extension(".usda").string();
+  const std::string format = options.format.empty() ? "" : " --format " + options.format;
+  return Error(ErrorCode::Unsupported, "a description becomes an asset, not another description")
+      .with_rule("convert.format")
+      .with_fix("make the asset first: `tenon convert " + shell_word(options.input) + " " +
+                shell_word(asset) + "`, then `tenon convert " + shell_word(asset) + " " +
+                shell_word(options.output) + format + "`");
+}
+
 int run_convert(const Globals& globals, ConvertArguments options) {
   Report report(globals, "convert", options.input);
   const Progress progress(globals, "converting " + shown_path(options.input));
@@ -393,6 +405,9 @@ int run_convert(const Globals& globals, ConvertArguments options) {
                              .with_fix("leave --update out"));
     }
     return run_export(report, options);
+  }
+  if (!names_folder(options.output) && is_description(options.output)) {
+    return report.fail(needs_two_steps(options));
   }
   for (const auto& [option, value, about] :
        {std::tuple("--physics", &options.physics,

@@ -291,6 +291,30 @@ TEST_F(AssetInMemory, FoldersAreSearchedInMemory) {
             std::vector<std::string>{"/made-up/none"});
 }
 
+TEST_F(AssetInMemory, IdleLayersInPayloadsBelongToTheAsset) {
+  const std::string head = "#usda 1.0\n(\n    defaultPrim = \"P\"\n)\n";
+  const std::string root = head + "def \"P\" (prepend references = @./payloads/base.usda@) {}\n";
+  const std::string idle = "#usda 1.0\ndef Scope \"Materials\" {}\n";
+  const auto roots = [&](std::map<std::string, std::string> files) {
+    return *root_assets("/a", reading(in_memory(files, "/a")));
+  };
+  const std::string base = head + "def Xform \"P\" {}\n";
+  EXPECT_EQ(roots({{"arm/arm.usda", root},
+                   {"arm/payloads/base.usda", base},
+                   {"arm/payloads/materials.usda", idle},
+                   {"arm/payloads/Physics/idle.usda", idle},
+                   {"arm/other/materials.usda", idle}}),
+            (std::vector<std::string>{"/a/arm/arm.usda", "/a/arm/other/materials.usda"}));
+  EXPECT_EQ(roots({{"arm/arm.usda", root},
+                   {"arm/payloads/base.usda", base},
+                   {"arm/payloads/opens.usda", base}}),
+            (std::vector<std::string>{"/a/arm/arm.usda", "/a/arm/payloads/opens.usda"}))
+      << "a layer with a default prim can be opened, and may be an asset";
+  EXPECT_EQ(roots({{"payloads/materials.usda", idle}}),
+            std::vector<std::string>{"/a/payloads/materials.usda"})
+      << "there is no asset that it could belong to";
+}
+
 TEST_F(AssetInMemory, EditsAndStructureReadFromMemory) {
   const std::map<std::string, std::string> hand =
       files_of(TENON_SOURCE_DIR "/examples/inspire_hand");

@@ -5,8 +5,9 @@
 // unless the options name one. The first run opens it as it is, which tells the variants and stands
 // for the one that is selected; what all runs find is merged and placed in the text once. Of a
 // folder the roots are checked: files that no other one names as a layer, then, of cycles that no
-// root reaches, the first file. So each file is reached from a root. Fixes are gathered by layer
-// and applied to the file that owns the opinion.
+// root reaches, the first file. So each file is reached from a root, or is an idle layer in the
+// folder `payloads` of one. Fixes are gathered by layer and applied to the file that owns the
+// opinion.
 #include "tenon/asset/check_asset.h"
 
 #include <algorithm>
@@ -80,34 +81,74 @@ bool is_usd_file(const fs::path& path) {
   return ending == ".usd" || ending == ".usda" || ending == ".usdc" || ending == ".usdz";
 }
 
-/// Files that a layer names as layers, as absolute paths.
-std::set<std::string> used_files(const std::string& path, const OpenOptions& options) {
-  std::set<std::string> used;
+struct LayerUses {
+  std::set<std::string> files;   ///< that the layer names as layers, as absolute paths
+  bool has_default_prim = true;  ///< also where it could not be read
+};
+
+LayerUses uses_of(const std::string& path, const OpenOptions& options) {
+  LayerUses uses;
   Diagnostics ignored;
   const auto opened = open_layer(path, options, ignored);
   if (!opened) {
-    return used;
+    return uses;
   }
   layer::Layer layer = **opened;
+  uses.has_default_prim = !layer.default_prim().empty();
   const fs::path folder = fs::path(path).parent_path();
   formats::rename_assets(layer, [&](const std::string& asset, formats::AssetUse use, Path) {
     if (use == formats::AssetUse::Layer) {
-      used.insert((folder / asset.substr(0, asset.find('['))).lexically_normal().string());
+      uses.files.insert((folder / asset.substr(0, asset.find('['))).lexically_normal().string());
     }
     return asset;
   });
-  return used;
+  uses.files.erase(path);
+  return uses;
+}
+
+/// The folder `payloads` that a file lies in, or an empty path.
+fs::path payloads_around(const fs::path& file) {
+  fs::path folder = file.parent_path();
+  while (folder.has_relative_path() && folder.filename() != "payloads") {
+    folder = folder.parent_path();
+  }
+  return folder.has_relative_path() ? folder : fs::path();
+}
+
+/// Layers in `payloads` that nothing can be opened with, as they have no default prim, belong to
+/// the asset beside that folder: SimReady asks for some of them also where they stay empty.
+void give_payloads_to_assets(std::map<std::string, LayerUses>& uses) {
+  for (const auto& [file, layer] : uses) {
+    const fs::path payloads = payloads_around(file);
+    if (layer.has_default_prim || payloads.empty()) {
+      continue;
+    }
+    const std::string below = payloads.string() + "/";
+    const std::string beside = below.substr(0, below.size() - std::string("payloads/").size());
+    for (auto at = uses.lower_bound(beside); at != uses.end() && at->first.starts_with(beside);
+         ++at) {
+      std::set<std::string>& used = at->second.files;
+      const auto payload = used.lower_bound(below);
+      const bool is_asset = at->first.find('/', beside.size()) == std::string::npos &&
+                            payload != used.end() && payload->starts_with(below);
+      if (is_asset) {
+        used.insert(file);
+      }
+    }
+  }
 }
 
 /// Files that nothing else names; of a cycle that nothing leads to, the first.
 std::vector<std::string> roots_of(const std::vector<std::string>& files,
                                   const OpenOptions& options) {
-  std::map<std::string, std::set<std::string>> uses;
-  std::set<std::string> used;
+  std::map<std::string, LayerUses> uses;
   for (const std::string& file : files) {
-    uses[file] = used_files(file, options);
-    uses[file].erase(file);
-    used.insert(uses[file].begin(), uses[file].end());
+    uses[file] = uses_of(file, options);
+  }
+  give_payloads_to_assets(uses);
+  std::set<std::string> used;
+  for (const auto& [file, layer] : uses) {
+    used.insert(layer.files.begin(), layer.files.end());
   }
   std::set<std::string> reached;
   const auto reach = [&](const std::string& from) {
@@ -116,7 +157,7 @@ std::vector<std::string> roots_of(const std::vector<std::string>& files,
       const std::string file = pending.back();
       pending.pop_back();
       if (reached.insert(file).second) {
-        pending.insert(pending.end(), uses[file].begin(), uses[file].end());
+        pending.insert(pending.end(), uses[file].files.begin(), uses[file].files.end());
       }
     }
   };

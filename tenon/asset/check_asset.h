@@ -42,8 +42,9 @@ Result<std::vector<EditedFile>> corrected_files(const std::vector<check::Finding
                                                 const bytes::Files& files);
 
 /// Files below a folder that no other of them uses as a layer, sorted; a file alone is one.
-/// A file that cannot be opened, or may not be by the options, uses no others. Errors:
-/// ErrorCode::NotFound, Io.
+/// A file that cannot be opened, or may not be by the options, uses no others. A layer without a
+/// default prim in the folder `payloads` of an asset counts as used by it.
+/// Errors: ErrorCode::NotFound, Io.
 Result<std::vector<std::string>> root_assets(const std::string& path, const OpenOptions& options);
 
 }  // namespace tenon

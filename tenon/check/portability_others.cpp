@@ -132,8 +132,8 @@ void check_newton_mimic_chain(const Subject& subject, Reporter& report) {
       const Joint& leader = subject.scene.joints[mimic.leader];
       if (!leader.mimics.empty()) {
         report.at(prim_of_joint(subject, joint),
-                  "Newton stops at mimics in a chain: the leader " +
-                      named(leader.path, RelatedRole::Joint) + " follows another joint",
+                  "Newton stops at mimics in a chain: the joint follows " +
+                      named(leader.path, RelatedRole::Joint) + ", which follows another one",
                   "let the joint follow the first leader, with the factors multiplied");
       }
     }

@@ -156,6 +156,18 @@ def structure_faults(folder):
     return faults_of("structure", home / hand.stem / hand.name)
 
 
+def folder_faults(folder):
+    """A robot without visuals has empty layers; its folder is one asset all the same."""
+    home = folder / "bare"
+    home.mkdir()
+    tenon("convert", ROOT / "examples/cpp/robots/arm.urdf", f"{home}/usd/", "--robot-type",
+          "Manipulator", *SAID)
+    said = json.loads(tenon("check", "--json", "--no-settings", "--profile", "simready",
+                            home / "usd", code=1).stdout)
+    found = [asset["asset"] for asset in said["assets"]]
+    return [] if found == [str(home / "usd/arm.usda")] else [f"check FOLDER: {found}"]
+
+
 def message_faults(folder):
     source = folder / "arm.urdf"
     faults = []
@@ -176,7 +188,8 @@ def message_faults(folder):
 def main():
     with tempfile.TemporaryDirectory(prefix="tenon-simready-") as name:
         folder = pathlib.Path(name)
-        faults = conversion_faults(folder) + message_faults(folder) + structure_faults(folder)
+        faults = (conversion_faults(folder) + message_faults(folder) + structure_faults(folder)
+                  + folder_faults(folder))
     for fault in faults:
         print(fault)
     return 1 if faults else 0

@@ -82,8 +82,8 @@ Result<DescriptionFormat> description_format(const std::string& output, const st
                "an asset can be converted to MJCF, URDF, SDF, SRDF, and to Python files for Isaac "
                "Lab and mjlab")
       .with_fix(
-          "name the output .xml, .urdf, .sdf, .srdf or .py; `tenon cat` and "
-          "`tenon structure` write assets");
+          "name the output .xml, .urdf, .sdf, .srdf or .py; `tenon cat` and `tenon structure` "
+          "write assets, `tenon zip` packages, `tenon bake` a .glb file");
 }
 
 }  // namespace tenon
