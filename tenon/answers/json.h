@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tenon/base/result.h"
+
 namespace tenon::answers {
 
 /// A value of JSON whose objects keep the order in which their keys were put in.
@@ -22,8 +24,12 @@ inline void append_member(Json& object, std::string key, Json value) {
   object.get_ref<Json::object_t&>().emplace_back(std::move(key), std::move(value));
 }
 
-/// The value that a text is; one that is discarded (`is_discarded`) where the text is no JSON.
+/// The value that a text is; one that is discarded (`is_discarded`) where the text is no JSON. Of
+/// keys that an object has twice the last counts.
 Json parsed(std::string_view text);
+/// The value that a file says, with each key once in its object. ErrorCode::Parse with line and
+/// column, or with the key.
+Result<Json> parsed_file(std::string_view text);
 
 /// As it is printed: indented, and with an end of line. Bytes that are no UTF-8 are replaced;
 /// `only_ascii` writes other characters as escapes.

@@ -108,8 +108,9 @@ Result<void> NpyArray::set_type(std::string_view type) {
       width && type[1] != '>' &&
       (is_number ? *width == 4 || *width == 8 : is_text() && *width >= 1 && *width <= kWidest);
   if (!is_known) {
-    return Error(ErrorCode::Unsupported,
-                 "its elements are of type " + std::string(type.substr(0, 40)));
+    return Error(ErrorCode::Unsupported, "its elements are of type " +
+                                             std::string(type.substr(0, 40)) +
+                                             ", not whole numbers, floats or texts");
   }
   width_ = static_cast<std::size_t>(*width) * (kind_ == 'U' ? 4 : 1);
   return {};

@@ -120,10 +120,11 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
     return file_error(path, "cannot open the file", errno);
   }
   if (!S_ISREG(info.st_mode)) {
-    return Error(ErrorCode::Io,
-                 S_ISDIR(info.st_mode) ? "this is a folder, not a file" : "not a regular file")
+    const bool folder = S_ISDIR(info.st_mode);
+    return Error(ErrorCode::Io, folder ? "this is a folder, not a file" : "not a regular file")
         .in_file(path)
-        .with_rule("file.unreadable");
+        .with_rule("file.unreadable")
+        .with_fix(folder ? "" : "save what it gives to a file, and name that");
   }
   const auto claimed = static_cast<std::uint64_t>(info.st_size);
   TENON_CHECK(check_size(claimed, rules, path));

@@ -90,7 +90,10 @@ Result<std::vector<TomlValue>> toml_values(std::string_view text) {
     return Error(ErrorCode::Parse, "bad TOML: " + std::string(why))
         .at(at.line, at.column)
         .with_rule("settings.syntax")
-        .with_fix("correct the line; TOML 1.0 has text in quotes, as in name = \"text\"");
+        .with_fix(why.find("utf-8") != std::string_view::npos ? "save the file as UTF-8"
+                  : why.find("cannot redefine") != std::string_view::npos
+                      ? "leave one of the two out"
+                      : "correct the line; TOML 1.0 has text in quotes, as in name = \"text\"");
   }
   std::vector<TomlValue> values = values_below(parsed.table());
   std::sort(values.begin(), values.end(), [](const TomlValue& a, const TomlValue& b) {

@@ -226,6 +226,14 @@ class Outputs(unittest.TestCase):
         self.assertEqual(run(scene, "--strict", "--baseline", known).returncode, 0)
         scene.write_text(scene.read_text().replace("physics:mass = 1\n", "physics:mass = -1\n", 1))
         self.assertEqual(self.rules(scene, "--baseline", known), {"mass.negative"})
+        whole = known.read_text()
+        for text, said in ((whole[:60], "known.json:4:10: "), (whole + "x", "no JSON here"),
+                           (whole.replace('"findings": [', '"findings": [7,'), 'no "rule"'),
+                           (whole.replace("{", '{"schema": "", ', 1), '"schema" is there twice')):
+            known.write_text(text)
+            process = run(scene, "--baseline", known)
+            self.assertEqual(process.returncode, 2, text)
+            self.assertIn(said, process.stderr)
 
     def test_sarif_has_the_shape_of_2_1_0(self):
         scene = self.write("a b/eight.usda", eight_defects())

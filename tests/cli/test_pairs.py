@@ -403,7 +403,12 @@ class Files(Case):
                 ("c.srdf", "<sdf/>", ("c.srdf:1", "not <robot>")),
                 ("d.srdf", '<robot>\n\n<disable_collisions link1="arm"/></robot>',
                  ("d.srdf:3", "link2")),
-                ("e.json", "[" * 100000, ("e.json", "no list")),
+                ("e.json", "[" * 100000, ("e.json:1:100001", "ends too early")),
+                ("e.json", '{"pairs": [],\n "pairs": []}', ("e.json", '"pairs" is there twice')),
+                ("e.json", '{\n"pairs": NaN}', ("e.json:2:10", "no JSON here")),
+                # Keys that are looked for one by one take minutes.
+                ("i.json", "{" + ",".join(f'"{at}":1' for at in range(300000)) + "}",
+                 ("i.json", "no list")),
                 ("f.json", '{"pairs": [{"bodyA": 3}]}', ("f.json", "bodyA")),
                 ("g.json", '{"pairs": [{"bodyA": "/rig/arm", "bodyB": "/rig/x"}]}',
                  ("g.json", "neither a body")),

@@ -272,6 +272,13 @@ class Files(Case):
                 ('{"1 a": {"joints": {"/arm/elbow": 1}}}', "edit.bad-name")):
             (self.folder / "in.json").write_text(contents)
             self.refused(rule, asset, "--import", "in.json")
+        many = ",".join(f'"p{at}": {{}}' for at in range(2001))
+        for contents, says in (('{\n"a": NaN}', "in.json:2:6"), ("", "it is empty"),
+                               ('{"poses": {}}', 'only one of "_meta" and "poses"'),
+                               ('{"a": {}, "a": {}}', '"a" is there twice'),
+                               ("{" + many + "}", "more than 2000 poses")):
+            (self.folder / "in.json").write_text(contents)
+            self.refused("pose.file", asset, "--import", "in.json", says=says)
         self.refused("output.kind", asset, "--export", "poses.txt")
 
 

@@ -213,6 +213,9 @@ class Wrong(Case):
         os.mkfifo(self.root / "tenon.toml")
         self.json("check", self.scene, code=2)
         (self.root / "tenon.toml").unlink()
+        (self.root / "tenon.toml").write_bytes(b'engine = "\xe9"\n')
+        told = self.json("check", self.scene, code=2)["diagnostics"]
+        self.assertEqual(told[0]["fix"], "save the file as UTF-8")
         self.settings("#" * 40_000)
         told = self.json("check", self.scene, code=2)["diagnostics"]
         self.assertEqual(told[0]["rule"], "file.too-large")

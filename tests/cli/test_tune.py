@@ -216,6 +216,8 @@ class Tune(unittest.TestCase):
                 ("[J]\nfrequency = 4\n[elbow]\nfrequency = 2\n", 4, 'no joint is "elbow"'),
                 ("[J]\nfrequency = true\n", 2, "of type boolean"),
                 ('[J]\nfrequency = "4 kHz"\n', 2, "is not a frequency"),
+                ("[J]\nfrequency = 1e300\n", 2, "no such number"),
+                ("[J]\nfrequency = 1\nfrequency = 2\n", 3, "leave one of the two out"),
                 ("[J]\ndamping_ratio = -1\n", 2, "no such number"),
                 ("[J]\nstiffness = nan\n", 2, "no such number"),
                 ("[J]\nfrequency = 4\nstiffness = 3\n", 3, "the same twice"),

@@ -171,10 +171,26 @@ class Rules(unittest.TestCase):
         for words in (["--gains", "tip=1"], ["--armature", "-1"], ["--armature", "tip=heavy"],
                       ["--friction", "nan"], ["--collision", "box"], ["--collision", "tip=Hull"],
                       ["--density", "0"], ["--gains", "(=1,2"], ["--armature", "(a)\\1=1"],
-                      ["--gains", "sl)|(ide=1,2"]):
+                      ["--gains", "sl)|(ide=1,2"], ["--gains", "inf,1"],
+                      ["--gains", "tip_joint=1e300,1"]):
             code, answer = self.run_tenon("convert", self.robot, self.asset, *words)
             with self.subTest(words[1]):
                 self.assertEqual(code, 2, answer)
+                self.assertFalse(self.asset.exists())
+
+    def test_a_file_of_gains_that_cannot_be_used(self):
+        file = self.robot.parent / "gains.json"
+        for text, said, line in (("{}", "not a JSON object with", None), ("", "it is empty", 1),
+                                 ('{"tip": [1, 2],\n "tip": [3, 4]}', "there twice", None),
+                                 ('{\n"tip": [1, 1e400]}', "too large", 2),
+                                 ('{"tip": [1, 1e300]}', "two finite numbers", None),
+                                 ('{\n"tip": [1, 2]\n', "ends too early", 3)):
+            file.write_text(text)
+            code, answer = self.run_tenon("convert", self.robot, self.asset, "--gains", file)
+            with self.subTest(text):
+                [error] = answer["diagnostics"]
+                self.assertEqual((code, error["line"]), (2, line), answer)
+                self.assertIn(said, error["message"])
                 self.assertFalse(self.asset.exists())
 
     def test_of_mjcf_another_robot_goes_back(self):

@@ -150,6 +150,10 @@ class Undo(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertRegex(done.stderr, r"\[undo\.(none|changed)\]")
                 record.unlink()
+        os.mkfifo(record)  # which nobody writes to
+        done = run("undo", "base.usda", cwd=self.work, env=self.environment)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        record.unlink()
 
     def test_what_is_kept_is_the_users_alone_and_bounded(self):
         self.edit(["set", "base.usda", "/World/box.size=1"])

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tenon/answers/json.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/check/rule.h"
 
@@ -28,18 +29,32 @@ std::string baseline_text(const Json& item, const char* key) {
 }  // namespace
 
 Result<Baseline> Baseline::read(const std::string& path, const bytes::Files& files) {
-  TENON_TRY(const auto bytes, files->open(path, {}));
-  const Json json = answers::parsed(bytes->text());
+  bytes::FileRules rules;
+  rules.max_bytes = limits::kJsonFileBytes;
+  TENON_TRY(const auto bytes, files->open(path, rules));
+  const auto bad = [&](const std::string& why) {
+    return Error(ErrorCode::Parse, "the file is not a baseline that tenon check wrote: " + why)
+        .in_file(path)
+        .with_fix("write one with --write-baseline");
+  };
+  const auto parsed = answers::parsed_file(bytes->text());
+  if (!parsed) {
+    const Diagnostic& at = parsed.error().diagnostic();
+    return bad(at.message).at(at.line, at.column);
+  }
+  const Json& json = *parsed;
   const bool usable = json.is_object() && baseline_text(json, "schema") == kBaselineSchema &&
                       json.contains("findings") && json["findings"].is_array();
   if (!usable) {
-    return Error(ErrorCode::Parse, "the file is not a baseline that tenon check wrote")
-        .in_file(path)
-        .with_fix("write one with --write-baseline");
+    return bad(std::string("it has no \"schema\" \"") + kBaselineSchema +
+               "\" with a list \"findings\"");
   }
   Baseline baseline;
   baseline.folder_ = baseline_folder(path);
   for (const Json& item : json["findings"]) {
+    if (baseline_text(item, "rule").empty()) {
+      return bad("a finding of it has no \"rule\"");
+    }
     const std::string key = std::string(check::current_id(baseline_text(item, "rule"))) + "\n" +
                             baseline_text(item, "file") + "\n" + baseline_text(item, "prim") +
                             "\n" + baseline_text(item, "property");

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "tenon/answers/json.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/bytes/file_bytes.h"
 
@@ -19,6 +21,9 @@ namespace tenon {
 namespace {
 
 using answers::Json;
+
+/// Files have single precision: what is larger would be infinite there.
+bool is_gain(double value) { return value >= 0 && value <= std::numeric_limits<float>::max(); }
 
 /// "K,D", both numbers.
 std::optional<convert::Gains> gains_of(const std::string& text) {
@@ -28,7 +33,7 @@ std::optional<convert::Gains> gains_of(const std::string& text) {
   }
   const auto stiffness = parse_double(text.substr(0, comma));
   const auto damping = parse_double(text.substr(comma + 1));
-  if (!stiffness || !damping || !(*stiffness >= 0) || !(*damping >= 0)) {
+  if (!stiffness || !damping || !is_gain(*stiffness) || !is_gain(*damping)) {
     return std::nullopt;
   }
   return convert::Gains{*stiffness, *damping};
@@ -42,21 +47,31 @@ Result<void> read_gains_file(const std::string& path, const bytes::Files& files,
         .in_file(path)
         .with_fix("write {\"joint\": [K, D], \"*\": [K, D]} in N m/rad and N m s/rad");
   };
-  const auto file = files->open(path, {});
+  bytes::FileRules rules;
+  rules.max_bytes = limits::kJsonFileBytes;
+  const auto file = files->open(path, rules);
+  if (!file && file.error().code() == ErrorCode::Limit) {
+    return file.error();
+  }
   if (!file) {
     return fault("the gains \"" + path +
                  "\" are neither two numbers K,D, nor REGEX=K,D, nor a file that can be read");
   }
-  const Json json = answers::parsed((*file)->text());
-  if (!json.is_object()) {
-    return fault("the gains file is not a JSON object");
+  const auto parsed = answers::parsed_file((*file)->text());
+  if (!parsed) {
+    const Diagnostic& at = parsed.error().diagnostic();
+    return fault("the gains file cannot be read: " + at.message).at(at.line, at.column);
+  }
+  const Json& json = *parsed;
+  if (!json.is_object() || json.empty()) {
+    return fault("the gains file is not a JSON object with a joint, or \"*\" for all");
   }
   for (const auto& [name, pair] : json.items()) {
     const bool sound = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
-                       pair[1].is_number() && pair[0].get<double>() >= 0 &&
-                       pair[1].get<double>() >= 0;
+                       pair[1].is_number() && is_gain(pair[0].get<double>()) &&
+                       is_gain(pair[1].get<double>());
     if (!sound) {
-      return fault("the gains of \"" + name + "\" are not two numbers of 0 or more");
+      return fault("the gains of \"" + name + "\" are not two finite numbers of 0 or more");
     }
     const convert::Gains gains{pair[0].get<double>(), pair[1].get<double>()};
     if (name == "*") {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -120,7 +121,7 @@ Result<SpecNumber> spec_number(const settings::TomlValue& value, const SpecKey& 
     if (!read || std::find(key.dimensions.begin(), key.dimensions.end(), read->dimension) ==
                      key.dimensions.end()) {
       return spec_error(value, "drives.value",
-                        name + " = \"" + value.text + "\" has no unit that it could be in",
+                        name + " = \"" + value.text + "\" is no number with one of its units",
                         "write a number and one of " + units_of(key));
     }
     number = *read;
@@ -128,8 +129,9 @@ Result<SpecNumber> spec_number(const settings::TomlValue& value, const SpecKey& 
     return spec_error(value, "drives.type", name + " is of type " + value.type + ", not a number",
                       "write a number, or a text with its unit: " + units_of(key));
   }
-  if (!std::isfinite(number.value) || number.value <= 0) {
-    return spec_error(value, "drives.value", name + " has to be above 0",
+  // Files have single precision: what is larger would be no limit there.
+  if (!(number.value > 0 && number.value <= std::numeric_limits<float>::max())) {
+    return spec_error(value, "drives.value", name + " has to be a finite number above 0",
                       "give what the data sheet says");
   }
   return number;

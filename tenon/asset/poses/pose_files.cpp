@@ -38,6 +38,15 @@ Json numbers_json(const std::vector<double>& numbers) { return Json(numbers); }
 
 Json link_json(const Path& path) { return path.empty() ? std::string() : path.str(); }
 
+Error poses_error(const std::string& file, const std::string& why) {
+  return Error(ErrorCode::Parse, "no poses can be read from this: " + why)
+      .in_file(file)
+      .with_rule("pose.file")
+      .with_fix(
+          "tenon pose ASSET --export FILE.json shows the form: {\"_meta\": {\"units\": "
+          "\"radians\"}, \"poses\": {NAME: {\"joints\": {PATH: NUMBER}}}}");
+}
+
 class PosesReader {
  public:
   PosesReader(const PoseOfAsset& pose, Path robot, std::string file)
@@ -46,8 +55,14 @@ class PosesReader {
   Result<std::vector<physics::NamedPose>> read(const Json& json) {
     const bool has_frame = json.is_object() && json.contains("_meta") && json.contains("poses");
     const Json& list = has_frame ? json["poses"] : json;
-    if (!list.is_object() || list.empty() || list.size() > limits::kNamedPoses) {
+    if (!list.is_object() || list.empty()) {
       return bad("it has no poses by name");
+    }
+    if (!has_frame && (list.contains("_meta") || list.contains("poses"))) {
+      return bad("it has only one of \"_meta\" and \"poses\"");
+    }
+    if (list.size() > limits::kImportedPoses) {
+      return bad("it has more than " + std::to_string(limits::kImportedPoses) + " poses");
     }
     if (has_frame) {
       const Json& meta = json["_meta"];
@@ -76,10 +91,13 @@ class PosesReader {
           .with_fix("use letters, digits and '_', no digit in front");
     }
     const bool has_joints = json.is_object() && json.contains("joints") &&
-                            json["joints"].is_object() && !json["joints"].empty() &&
-                            json["joints"].size() <= limits::kPoseValues;
+                            json["joints"].is_object() && !json["joints"].empty();
     if (!has_joints) {
       return bad("its pose " + quoted_text(name) + " has no joints");
+    }
+    if (json["joints"].size() > limits::kPoseValues) {
+      return bad("its pose " + quoted_text(name) + " has more than " +
+                 std::to_string(limits::kPoseValues) + " joints");
     }
     physics::NamedPose pose;
     pose.path = robot_.child(Token(std::string(structure::kNamedPosesScope))).child(Token(name));
@@ -149,14 +167,7 @@ class PosesReader {
     return numbers;
   }
 
-  Error bad(const std::string& why) const {
-    return Error(ErrorCode::Parse, "no poses can be read from this: " + why)
-        .in_file(file_)
-        .with_rule("pose.file")
-        .with_fix(
-            "tenon pose ASSET --export FILE.json shows the form: {\"_meta\": {\"units\": "
-            "\"radians\"}, \"poses\": {NAME: {\"joints\": {PATH: NUMBER}}}}");
-  }
+  Error bad(const std::string& why) const { return poses_error(file_, why); }
 
   std::map<Path, bool> joints_;
   Path robot_;
@@ -208,7 +219,12 @@ Result<std::vector<physics::NamedPose>> read_poses_file(const PoseOfAsset& pose,
   bytes::FileRules rules;
   rules.max_bytes = limits::kPoseFileBytes;
   TENON_TRY(const auto contents, files->open(file, rules));
-  return PosesReader(pose, robot, file).read(answers::parsed(contents->text()));
+  const auto json = answers::parsed_file(contents->text());
+  if (!json) {
+    const Diagnostic& at = json.error().diagnostic();
+    return poses_error(file, at.message).at(at.line, at.column);
+  }
+  return PosesReader(pose, robot, file).read(*json);
 }
 
 Result<std::vector<physics::NamedPose>> poses_of_text(const PoseOfAsset& pose, const Path& robot,

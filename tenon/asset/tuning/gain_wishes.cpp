@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tenon/base/text/text_number.h"
@@ -13,6 +13,8 @@
 
 namespace tenon {
 namespace {
+
+constexpr double kMostHertz = 1e9;  ///< beyond it, gains have no place in single precision
 
 struct WishKey {
   std::string_view name;
@@ -56,10 +58,11 @@ Result<double> wish_number(const settings::TomlValue& value, std::string_view ke
                       std::string(key) + " is of type " + value.type + ", not a number",
                       "write a number; a frequency may be a text with its unit, \"10 Hz\"");
   }
-  if (!std::isfinite(value.number) || value.number < 0 || (is_frequency && value.number == 0)) {
+  const double most = is_frequency ? kMostHertz : std::numeric_limits<float>::max();
+  if (!(value.number >= 0 && value.number <= most) || (is_frequency && value.number == 0)) {
     return wish_error(value, "tune.value",
                       std::string(key) + " = " + shortest(value.number) + " is no such number",
-                      "give a finite number, 0 or more; of frequencies above 0");
+                      "give a finite number, 0 or more; of frequencies above 0, up to 1e9 Hz");
   }
   return is_frequency ? value.number * 2 * kPi : value.number;
 }
@@ -111,8 +114,8 @@ Result<double> frequency_named(const std::string& text) {
     }
   }
   const auto value = parse_double(number);
-  if (!value || !std::isfinite(*value) || !(*value > 0)) {
-    return Error(ErrorCode::Invalid, "\"" + text + "\" is not a frequency above 0")
+  if (!value || !(*value > 0 && *value * unit <= kMostHertz * 2 * kPi)) {
+    return Error(ErrorCode::Invalid, "\"" + text + "\" is not a frequency above 0, up to 1e9 Hz")
         .with_rule("usage.value")
         .with_fix("write 10, 10Hz or 62.8rad/s");
   }

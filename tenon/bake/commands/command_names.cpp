@@ -65,6 +65,9 @@ std::string CommandNames::fix_for(std::string_view name) const {
   }
   if (names.empty()) {
     for (const auto& [column, what] : known_) {
+      if (column.ends_with("/" + std::string(name))) {
+        return "columns have the paths of joints: did you mean " + column + "?";
+      }
       names.push_back(column);
     }
   }
@@ -72,7 +75,9 @@ std::string CommandNames::fix_for(std::string_view name) const {
       name.size() > kLongest ? std::string_view() : nearest_name(name, names);
   return !nearest.empty() ? "did you mean " + std::string(nearest) + "?"
          : !has.empty()   ? "this joint has " + has
-                          : "name a joint's .target, .velocityTarget or .effort";
+         : known_.empty() ? "name a joint's .target, .velocityTarget or .effort"
+                          : "name a joint's .target, .velocityTarget or .effort, such as " +
+                                known_.begin()->first;
 }
 
 std::string shown_name(std::string_view name) {

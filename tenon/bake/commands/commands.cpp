@@ -6,6 +6,7 @@
 // one of them, the other is the asset's.
 #include "tenon/bake/commands/commands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -20,10 +21,16 @@ using scene::Index;
 Result<Commands> read_commands(std::shared_ptr<const bytes::FileBytes> file,
                                const scene::PhysicsScene& scene,
                                const engines::Simulation& simulation) {
-  if (bytes::ZipArchive::is_zip(file->text())) {
-    return commands_from_npz(std::move(file), scene, simulation);
+  TENON_TRY(Commands commands, bytes::ZipArchive::is_zip(file->text())
+                                   ? commands_from_npz(file, scene, simulation)
+                                   : commands_from_csv(file->text(), scene, simulation));
+  if (std::all_of(commands.values.begin(), commands.values.end(),
+                  [](double value) { return std::isnan(value); })) {
+    return Error(ErrorCode::Invalid, "the table commands nothing: no row has a number but its time")
+        .with_rule("sim.commands")
+        .with_fix("give rows with a time and a number below the name of a joint's .target");
   }
-  return commands_from_csv(file->text(), scene, simulation);
+  return commands;
 }
 
 CommandPlayer::CommandPlayer(const Commands& commands, const scene::PhysicsScene& scene,

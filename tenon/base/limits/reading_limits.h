@@ -20,6 +20,7 @@ inline constexpr std::size_t kSdfDepth = 32;       ///< models within models
 inline constexpr std::uint64_t kSdfIncludedBytes = 1u << 28;  ///< of the files that it includes
 inline constexpr std::uint64_t kSettingsBytes = 1u << 14;     ///< of a tenon.toml
 inline constexpr std::size_t kSettingsDepth = 8;              ///< tables within tables in it
+inline constexpr std::uint64_t kJsonFileBytes = 1u << 26;     ///< of baselines and files of gains
 inline constexpr std::size_t kSceneJson = 1u << 28;           ///< bytes of a physics scene as JSON
 
 }  // namespace tenon::limits

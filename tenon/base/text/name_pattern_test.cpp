@@ -49,5 +49,17 @@ TEST(NamePattern, SaysWhatIsWrongWithOne) {
   EXPECT_FALSE(NamePattern::parse(std::string(2000, 'a')));
 }
 
+TEST(NamePattern, RefusesRepetitionsThatTakeGigabytes) {
+  for (const char* text : {"(((a{1000}){1000}){1000})", "(a*){3000}", "(([ab]{9,99}){99}){9}",
+                           "a{1001}", "a{0,99999999999999999999}", "(a{40}{40})"}) {
+    const auto pattern = NamePattern::parse(text);
+    ASSERT_FALSE(pattern) << text;
+    EXPECT_NE(pattern.error().message().find("written out"), std::string::npos) << text;
+  }
+  EXPECT_TRUE(NamePattern::parse("tip_[0-9]{2}_(a|b){1,2}")->matches_text("tip_07_a"));
+  EXPECT_TRUE(NamePattern::parse("(ab){3}[]{]\\{")->matches_text("ababab]{"));
+  EXPECT_TRUE(NamePattern::parse("a{300}")->matches_text(std::string(300, 'a')));
+}
+
 }  // namespace
 }  // namespace tenon

@@ -64,7 +64,7 @@ std::string record_file(const std::string& folder, std::uint64_t number) {
 }
 
 std::optional<std::string> contents_of(const std::string& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) {
     return std::nullopt;
   }
