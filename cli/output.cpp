@@ -29,7 +29,6 @@
 #include "tenon/bytes/asset_resolver.h"
 #include "tenon/bytes/posix_files.h"
 #include "tenon/bytes/write/file_transaction.h"
-#include "tenon/bytes/write/undo_log.h"
 #include "tenon/bytes/zip/unpack_zip.h"
 #include "tenon/formats/save_layer.h"
 
@@ -153,18 +152,6 @@ void keep_taken(int descriptor, int flags) {
   }
 }
 
-/// That it cannot be kept is no fault of the edit; tenon undo says it then.
-void keep_for_undo(const EditOf& edit, std::vector<bytes::ReplacedFile> replaced) {
-  if (replaced.empty()) {
-    return;
-  }
-  std::error_code error;
-  const fs::path asset = fs::weakly_canonical(bytes::absolute_file_path(edit.asset), error);
-  if (const auto log = bytes::UndoLog::of_user(); log && !error) {
-    [[maybe_unused]] const auto kept = log->add({edit.verb, asset.string(), std::move(replaced)});
-  }
-}
-
 }  // namespace
 
 Result<void> Outputs::claim(OutputKind kind, const std::string& path) {
@@ -220,7 +207,7 @@ Result<void> Outputs::commit() const {
                                   .make_folders = make_folders_,
                                   .check = check_,
                                   .replaced = in_place_ ? &replaced : nullptr}));
-  keep_for_undo(edit_, std::move(replaced));
+  keep_for_undo(edit_.verb, edit_.asset, std::move(replaced), bytes::Files());
   for (const auto& [path, contents] : files_) {
     if (path == "-") {
       print_data(contents);
@@ -257,24 +244,18 @@ Result<void> write_asset(const structure::Package& package, const std::string& f
   std::vector<bytes::ReplacedFile> replaced;
   options.replaced = options.in_place ? &replaced : nullptr;
   Result<void> written = write_with_base(package, folder, options);
-  keep_for_undo({verb, folder + "/" + package.interface}, std::move(replaced));
+  keep_for_undo(verb, folder + "/" + package.interface, std::move(replaced), bytes::Files());
   return written;
 }
 
 Result<void> write_edits(const std::vector<EditedFile>& files, const EditOf& edit) {
   std::vector<bytes::ReplacedFile> replaced;
   Result<void> written = write_files(files, &replaced);
-  keep_for_undo(edit, std::move(replaced));
+  keep_for_undo(edit.verb, edit.asset, std::move(replaced), bytes::Files());
   return written;
 }
 
-Result<void> write_undone(const UndoneEdit& edit) {
-  TENON_CHECK(write_files(edit.files));
-  if (const auto log = bytes::UndoLog::of_user()) {
-    log->forget(edit.record);
-  }
-  return {};
-}
+Result<void> write_undone(const UndoneEdit& edit) { return restore_undone(edit); }
 
 Result<void> unpack(const bytes::ZipArchive& archive, const std::string& folder) {
   return bytes::unpack_zip(archive, folder);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -428,19 +429,41 @@ AuthoringRequest authoring_of(const std::string& path, const nb::args& kinds,
   return request;
 }
 
-PrimOf add(const StagePtr& stage, const std::string& path, const nb::args& kinds,
-           const std::string& engine, const std::string& layer, const nb::kwargs& options) {
-  const AuthoringRequest request = authoring_of(path, kinds, options);
+/// Makes what a request adds; the edits that this took.
+std::vector<AssetEdit> added(OpenedStage& stage, const AuthoringRequest& request,
+                             const std::string& engine, const std::string& layer) {
   std::vector<AssetEdit> edits;
   {
-    const auto access = stage->access();
-    const EditOptions how = options_of(*stage, engine, layer);
-    const auto views = or_raise(unlocked([&] { return stage->views(); }));
+    const auto access = stage.access();
+    const EditOptions how = options_of(stage, engine, layer);
+    const auto views = or_raise(unlocked([&] { return stage.views(); }));
     Diagnostics found;
     edits = or_raise(unlocked([&] { return add_edits(views, request, how, found); }), found);
   }
-  edited_in(*stage, std::move(edits), engine, layer);
+  edited_in(stage, edits, engine, layer);
+  return edits;
+}
+
+PrimOf add(const StagePtr& stage, const std::string& path, const nb::args& kinds,
+           const std::string& engine, const std::string& layer, const nb::kwargs& options) {
+  added(*stage, authoring_of(path, kinds, options), engine, layer);
   return {stage, path_of(path)};
+}
+
+nb::list add_matching(const StagePtr& stage, const std::string& pattern, const nb::args& kinds,
+                      const std::string& engine, const std::string& layer,
+                      const nb::kwargs& options) {
+  AuthoringRequest request = authoring_of(pattern, kinds, options);
+  request.match = true;
+  std::set<Path> prims;
+  for (const AssetEdit& edit : added(*stage, request, engine, layer)) {
+    prims.insert(edit.object.prim());
+  }
+  nb::list changed;
+  for (const Path& prim : prims) {
+    changed.append(nb::cast(PrimOf{stage, prim}));
+  }
+  return changed;
 }
 
 void remove(OpenedStage& stage, const std::string& path, const nb::args& kinds,
@@ -479,8 +502,17 @@ void bind_requests(nb::class_<OpenedStage>& stage) {
                     "**options: object) -> Prim"),
             "What `tenon add` does, as one step: stage.add(\"/World/box\", \"cube\", \"body\", "
             "\"collider\", size=0.1, at=(0, 0, 1)). `tenon help add` lists the kinds and their "
-            "options, which have '_' for '-' here; `set` is a dict of other properties. Units are "
-            "those of the stage, angles are degrees. Returns the prim.");
+            "options, which have '_' for '-' here, and `with_` for a word of Python; `set` is a "
+            "dict of other properties. Units are those of the stage, angles are degrees. Returns "
+            "the prim.");
+  stage.def("add_matching", &add_matching, "pattern"_a, "kinds"_a, "engine"_a = "", "layer"_a = "",
+            "options"_a,
+            nb::sig("def add_matching(self, pattern: str, *kinds: str, engine: str = '', "
+                    "layer: str = '', **options: object) -> list[Prim]"),
+            "What `tenon add --match` does, as one step: puts kinds on all prims that a name, a "
+            "path or a regular expression for the whole of either means and that lack them: "
+            "stage.add_matching(\".*_collision\", \"collider\", approximation=\"convexHull\"). "
+            "Options as of add(). Returns the prims, by path; NotFoundError where there are none.");
   stage.def("remove", &remove, "path"_a, "kinds"_a, "engine"_a = "", "options"_a,
             nb::sig("def remove(self, path: str, *kinds: str, engine: str = '', "
                     "**options: object) -> None"),

@@ -175,28 +175,34 @@ nb::list set_value(const PrimOf& prim, const std::string& name, const nb::object
 }
 
 nb::list edit_targets(const PrimOf& prim, const std::string& name, const nb::object& paths,
-                      Kind kind) {
+                      Kind kind, const std::string& engine, const std::string& layer) {
   AssetEdit edit;
   edit.kind = kind;
   edit.object = prim.path.property(name);
   edit.value = as_text("as_targets", paths);
+  edit.engine = engine;
+  edit.layer = layer;
   return edited(*prim.stage, {edit}, kind == Kind::AddTargets);
 }
 
-nb::list edit_api(const PrimOf& prim, const std::string& schema, Kind kind) {
+nb::list edit_api(const PrimOf& prim, const std::string& schema, Kind kind,
+                  const std::string& engine, const std::string& layer) {
   AssetEdit edit;
   edit.kind = kind;
   edit.object = prim.path;
   edit.api = schema;
+  edit.engine = engine;
+  edit.layer = layer;
   return edited(*prim.stage, {edit});
 }
 
 nb::list edit_variant(const PrimOf& prim, const std::string& set, const std::string& variant,
-                      Kind kind) {
+                      Kind kind, const std::string& layer) {
   AssetEdit edit;
   edit.kind = kind;
   edit.object = prim.path;
   edit.value = set + "=" + variant;
+  edit.layer = layer;
   return edited(*prim.stage, {edit});
 }
 
@@ -225,7 +231,8 @@ std::optional<AssetArc> arc_of(const nb::object& reference, const nb::object& pa
 
 PrimOf define_prim(const StagePtr& stage, const std::string& path,
                    const std::optional<std::string>& type, const nb::object& reference,
-                   const nb::object& payload, bool any_type) {
+                   const nb::object& payload, bool any_type, const std::string& engine,
+                   const std::string& layer) {
   AssetEdit edit;
   edit.kind = Kind::DefinePrim;
   edit.object = path_of(path);
@@ -235,6 +242,8 @@ PrimOf define_prim(const StagePtr& stage, const std::string& path,
     check_type(type_name, edit.object);
   }
   edit.type_name = type_name;
+  edit.engine = engine;
+  edit.layer = layer;
   edited(*stage, {edit});
   return {stage, edit.object};
 }
@@ -281,10 +290,10 @@ nb::list set_stage_metadata(OpenedStage& stage, const std::string& field, const 
   return rows;
 }
 
-nb::list saved(OpenedStage& stage) {
+nb::list saved(OpenedStage& stage, bool undoable) {
   check_in_no_edits(stage, "save()");
   const auto access = stage.access();
-  const auto files = or_raise(unlocked([&] { return stage.save(); }));
+  const auto files = or_raise(unlocked([&] { return stage.save(undoable); }));
   nb::list names;
   for (const EditedFile& file : files) {
     names.append(text(file.path));
@@ -335,53 +344,61 @@ void bind_values(nb::class_<PrimOf>& prim) {
               "-> list[dict[str, Any]]"),
       "Takes the strongest opinion about a property away, or that of the file `layer`; with `time` "
       "one sample [time codes] of an attribute. Returns what set() returns.");
-  prim.def(
-      "apply",
-      [](const PrimOf& self, const std::string& schema) {
-        return edit_api(self, schema, Kind::ApplyApi);
-      },
-      "schema"_a, nb::sig("def apply(self, schema: str) -> list[dict[str, Any]]"),
-      "Applies an API schema: \"PhysicsMassAPI\", \"PhysicsDriveAPI:angular\". Returns what set() "
-      "returns.");
-  prim.def(
-      "unapply",
-      [](const PrimOf& self, const std::string& schema) {
-        return edit_api(self, schema, Kind::RemoveApi);
-      },
-      "schema"_a, nb::sig("def unapply(self, schema: str) -> list[dict[str, Any]]"),
-      "Takes an API schema away. Returns what set() returns.");
+}
+
+void bind_apis(nb::class_<PrimOf>& prim) {
+  const auto bind = [&prim](const char* name, Kind kind, const char* about) {
+    const std::string signature = std::string("def ") + name +
+                                  "(self, schema: str, *, engine: str = '', layer: str = '') "
+                                  "-> list[dict[str, Any]]";
+    prim.def(
+        name,
+        [kind](const PrimOf& self, const std::string& schema, const std::string& engine,
+               const std::string& layer) { return edit_api(self, schema, kind, engine, layer); },
+        "schema"_a, nb::kw_only(), "engine"_a = "", "layer"_a = "", nb::sig(signature.c_str()),
+        about);
+  };
+  bind("apply", Kind::ApplyApi,
+       "Applies an API schema: \"PhysicsMassAPI\", \"PhysicsDriveAPI:angular\". Returns what set() "
+       "returns.");
+  bind("unapply", Kind::RemoveApi, "Takes an API schema away. Returns what set() returns.");
 }
 
 void bind_lists(nb::class_<PrimOf>& prim) {
-  const auto bind = [&prim](const char* name, Kind kind, const char* signature, const char* about) {
+  const auto bind = [&prim](const char* name, Kind kind, const char* about) {
+    const std::string signature = std::string("def ") + name +
+                                  "(self, name: str, paths: object, *, engine: str = '', "
+                                  "layer: str = '') -> list[dict[str, Any]]";
     prim.def(
         name,
-        [kind](const PrimOf& self, const std::string& property, const nb::object& paths) {
-          return edit_targets(self, property, paths, kind);
+        [kind](const PrimOf& self, const std::string& property, const nb::object& paths,
+               const std::string& engine, const std::string& layer) {
+          return edit_targets(self, property, paths, kind, engine, layer);
         },
-        "name"_a, "paths"_a, nb::sig(signature), about);
+        "name"_a, "paths"_a, nb::kw_only(), "engine"_a = "", "layer"_a = "",
+        nb::sig(signature.c_str()), about);
   };
   bind("add_targets", Kind::AddTargets,
-       "def add_targets(self, name: str, paths: object) -> list[dict[str, Any]]",
        "Adds paths or prims to what a relationship has. Returns what set() returns.");
   bind("remove_targets", Kind::RemoveTargets,
-       "def remove_targets(self, name: str, paths: object) -> list[dict[str, Any]]",
        "Takes paths or prims out of a relationship. Returns what set() returns.");
-  const auto variant = [&prim](const char* name, Kind kind, const char* signature,
-                               const char* about) {
-    prim.def(
-        name,
-        [kind](const PrimOf& self, const std::string& set, const std::string& one) {
-          return edit_variant(self, set, one, kind);
-        },
-        "set"_a, "variant"_a, nb::sig(signature), about);
-  };
-  variant("add_variant", Kind::AddVariant,
-          "def add_variant(self, set: str, variant: str) -> list[dict[str, Any]]",
-          "Adds a variant, and its set where there is none. Returns what set() returns.");
-  variant(
-      "remove_variant", Kind::RemoveVariant,
-      "def remove_variant(self, set: str, variant: str) -> list[dict[str, Any]]",
+  prim.def(
+      "add_variant",
+      [](const PrimOf& self, const std::string& set, const std::string& one,
+         const std::string& layer) {
+        return edit_variant(self, set, one, Kind::AddVariant, layer);
+      },
+      "set"_a, "variant"_a, nb::kw_only(), "layer"_a = "",
+      nb::sig("def add_variant(self, set: str, variant: str, *, layer: str = '') "
+              "-> list[dict[str, Any]]"),
+      "Adds a variant, and its set where there is none. Returns what set() returns.");
+  prim.def(
+      "remove_variant",
+      [](const PrimOf& self, const std::string& set, const std::string& one) {
+        return edit_variant(self, set, one, Kind::RemoveVariant, "");
+      },
+      "set"_a, "variant"_a,
+      nb::sig("def remove_variant(self, set: str, variant: str) -> list[dict[str, Any]]"),
       "Takes a variant away from all files of the asset; its set goes with the last one. Returns "
       "what set() returns.");
 }
@@ -461,6 +478,7 @@ void check_type(const std::string& type, Path prim) {
 
 void bind_prim_edits(nb::class_<PrimOf>& prim) {
   bind_values(prim);
+  bind_apis(prim);
   bind_lists(prim);
   prim.def("remove", &remove_prim, "Takes the prim away from all files of the asset.");
   prim.def("rename", &rename_prim, "name"_a,
@@ -477,12 +495,13 @@ void bind_stage_edits(nb::module_& module, nb::class_<OpenedStage>& stage) {
   bind_stage_authoring(module, stage);
   stage.def(
       "define", &define_prim, "path"_a, "type_name"_a = nb::none(), nb::kw_only(),
-      "reference"_a = nb::none(), "payload"_a = nb::none(), "any_type"_a = false,
+      "reference"_a = nb::none(), "payload"_a = nb::none(), "any_type"_a = false, "engine"_a = "",
+      "layer"_a = "",
       nb::sig("def define(self, path: str, type_name: str | None = None, *, "
               "reference: str | os.PathLike[str] | tuple[str | os.PathLike[str], str] | "
               "None = None, payload: str | os.PathLike[str] | "
               "tuple[str | os.PathLike[str], str] | None = None, "
-              "any_type: bool = False) -> Prim"),
+              "any_type: bool = False, engine: str = '', layer: str = '') -> Prim"),
       "Makes a prim of a type (Xform) below one that is there, in memory until save(). "
       "`reference` or `payload` is what it brings in: a file, or a file and the path of a prim "
       "in it; its type is that one's then. InvalidError for a type that no schema declares, "
@@ -502,13 +521,16 @@ void bind_stage_edits(nb::module_& module, nb::class_<OpenedStage>& stage) {
   stage.def(
       "undo", [](OpenedStage& self) { return moved<&OpenedStage::undo>(self, "undo()"); },
       "Takes the last edit, or block of edits(), back; False where there is none since the last "
-      "save().");
+      "save(); tenon_usd.undo() is for what was saved.");
   stage.def(
       "redo", [](OpenedStage& self) { return moved<&OpenedStage::redo>(self, "redo()"); },
       "Does again what undo() took back; False where there is nothing.");
-  stage.def("save", &saved, nb::sig("def save(self) -> list[str]"),
+  stage.def("save", &saved, nb::kw_only(), "undoable"_a = false,
+            nb::sig("def save(self, *, undoable: bool = False) -> list[str]"),
             "Writes the files that edits changed, all or none; their names. Comments and layout of "
-            "text layers stay.");
+            "text layers stay. `undoable` keeps what they were for tenon_usd.undo() and `tenon "
+            "undo`. To save elsewhere, copy the folder of the asset and open the copy, or write "
+            "one file with flatten().");
 }
 
 }  // namespace tenon::python

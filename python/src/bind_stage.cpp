@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bind_edits.h"
@@ -26,6 +27,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "tenon/base/text/nearest_name.h"
 #include "tenon/formats/save_layer.h"
 #include "tenon/stage/flatten/flatten.h"
 
@@ -52,6 +54,20 @@ nb::list paths_of(const std::vector<Path>& paths) {
   return result;
 }
 
+[[noreturn]] void raise_no_property(const stage::Prim& prim, const std::string& name) {
+  std::vector<std::string_view> names;
+  const auto known = prim.property_names();
+  for (const Token& one : known) {
+    names.push_back(one.view());
+  }
+  const std::string nearest(nearest_name(name, names));
+  raise(Error(ErrorCode::NotFound, "<" + prim.path().str() + "> has no property \"" + name + "\"")
+            .with_prim(prim.path().str())
+            .with_rule("edit.no-property")
+            .with_fix(nearest.empty() ? "Prim.properties lists all"
+                                      : "did you mean " + nearest + "?"));
+}
+
 /// The value of an attribute at a time; of a relationship its targets.
 nb::object value_of(const PrimOf& prim, const std::string& name, std::optional<double> time) {
   return with_prim(prim, [&](const stage::Prim& found) -> nb::object {
@@ -60,9 +76,7 @@ nb::object value_of(const PrimOf& prim, const std::string& name, std::optional<d
     }
     const stage::Attribute attribute = found.attribute(name);
     if (!attribute.is_defined()) {
-      raise(Error(ErrorCode::NotFound, "<" + prim.path.str() + "> has no property \"" + name + "\"")
-                .with_prim(prim.path.str())
-                .with_rule("edit.no-property"));
+      raise_no_property(found, name);
     }
     return to_python(attribute.get(time_of(time)));
   });
@@ -324,7 +338,41 @@ StagePtr open(const std::filesystem::path& path, const OpenArguments& arguments)
   return OpenedStage::open(path.string(), arguments.open, readings_of(arguments));
 }
 
+/// Element by element, each as it is there or as one next to it is called; empty where none is.
+std::string nearest_path(const stage::Stage& stage, Path wanted) {
+  std::vector<Token> elements;
+  for (Path at = wanted; at.is_prim(); at = at.parent()) {
+    elements.push_back(at.name());
+  }
+  stage::Prim at = stage.pseudo_root();
+  for (auto element = elements.rbegin(); element != elements.rend(); ++element) {
+    stage::Prim next = at.child(*element);
+    if (!next) {
+      const std::vector<stage::Prim> children = at.children();
+      std::vector<std::string> names;
+      for (const stage::Prim& child : children) {
+        names.push_back(child.name().str());
+      }
+      const std::string_view nearest =
+          nearest_name(element->view(), std::vector<std::string_view>(names.begin(), names.end()));
+      next = nearest.empty() ? stage::Prim() : at.child(Token(nearest));
+    }
+    if (!next) {
+      return {};
+    }
+    at = next;
+  }
+  return at.path().str();
+}
+
 }  // namespace
+
+void raise_no_prim(const stage::Stage& stage, Path wanted) {
+  const std::string nearest = nearest_path(stage, wanted);
+  raise(Error(ErrorCode::NotFound, "there is no prim <" + wanted.str() + ">")
+            .with_rule("edit.no-prim")
+            .with_fix(nearest.empty() ? "Stage.prims lists all" : "did you mean " + nearest + "?"));
+}
 
 void bind_stage(nb::module_& module) {
   nb::class_<OpenedStage> stage(module, "Stage",

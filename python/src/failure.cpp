@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "failure.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string>
@@ -69,12 +70,46 @@ constexpr std::array kWords{
     Words{"--allow-read", "allow_read="},
     Words{"--package", "packages="},
     Words{"--engines", "engines="},
+    Words{"tenon tree ASSET --attributes lists what there is", "Prim.properties lists all"},
+    Words{"tenon set ASSET --type TYPE makes a new one", "type_name= makes a new one"},
+    Words{"--reading", "readings="},
+    Words{"--fix-base", "fix_base=True"},
+    Words{"--match is", "add_matching() is"},
+    Words{"leave --match out", "call add()"},
+    Words{"as in '.*_collision=collider'", "as in \".*_collision\""},
+    Words{"tenon check --list-rules names all", "tenon_usd.rules() names all"},
+    Words{"--layer takes NAME=VALUE for", "set_metadata() takes"},
+    Words{"--layer", "set_metadata():"},
+    Words{"tenon tree lists all prims", "Stage.prims lists all"},
 };
 
 /// A whole option, and not the beginning of a longer one.
 bool is_whole(const std::string& text, std::size_t end) {
   return end == text.size() ||
          (text[end] != '-' && std::isalnum(static_cast<unsigned char>(text[end])) == 0);
+}
+
+/// "--file-up Q is no up axis" is about file_up=; a command that is to be typed keeps its options.
+void name_arguments(std::string& text) {
+  if (text.find("tenon ") != std::string::npos) {
+    return;
+  }
+  const auto is_letter = [&](std::size_t at) {
+    return at < text.size() && (text[at] == '-' || (text[at] >= 'a' && text[at] <= 'z') ||
+                                (text[at] >= '0' && text[at] <= '9'));
+  };
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 1)) {
+    std::size_t end = at + 2;
+    for (; is_letter(end); ++end) {
+    }
+    const bool is_option = end > at + 2 && text[at + 2] != '-' && (at == 0 || text[at - 1] == ' ');
+    if (is_option) {
+      std::string name = text.substr(at + 2, end - at - 2);
+      std::replace(name.begin(), name.end(), '-', '_');
+      const bool is_keyword = name == "with" || name == "for" || name == "import";
+      text.replace(at, end - at, name + (is_keyword ? "_=" : "="));
+    }
+  }
 }
 
 void say_in_python(std::string& text) {
@@ -86,6 +121,7 @@ void say_in_python(std::string& text) {
       }
     }
   }
+  name_arguments(text);
 }
 
 template <class Field>

@@ -5,14 +5,17 @@
 // writes behind the guard of guarded_write.h, so that no output goes over a file that was read.
 #include "functions.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "answer_of.h"
+#include "edit_functions.h"
 #include "failure.h"
 #include "guarded_write.h"
-#include "interruptions.h"
 #include "json.h"
 #include "options.h"
 #include <nanobind/stl/filesystem.h>
@@ -21,10 +24,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "tenon/asset/answers/edited_json.h"
 #include "tenon/asset/answers/parts_json.h"
 #include "tenon/asset/answers/structured_json.h"
-#include "tenon/asset/authoring/author_asset.h"
 #include "tenon/asset/checking/check_assets.h"
 #include "tenon/asset/checking/checked_json.h"
 #include "tenon/asset/comparing/compare_files.h"
@@ -36,12 +37,11 @@
 #include "tenon/asset/converting/read_gains.h"
 #include "tenon/asset/converting/robot_files.h"
 #include "tenon/asset/layers/output_place.h"
-#include "tenon/asset/poses/pose_edits.h"
-#include "tenon/asset/poses/pose_json.h"
 #include "tenon/asset/structure_asset.h"
 #include "tenon/asset/updating/base_copy.h"
 #include "tenon/asset/updating/update_asset.h"
 #include "tenon/asset/updating/updated_json.h"
+#include "tenon/base/text/comma_list.h"
 #include "tenon/check/rule.h"
 #include "tenon/guard/worker_place.h"
 #include "tenon/make_simulation.h"
@@ -51,32 +51,31 @@ namespace tenon::python {
 namespace {
 
 using namespace nb::literals;
-using answers::Json;
 using Files = std::vector<std::filesystem::path>;
-/// A verb that Ctrl-C ends before it writes.
-using Job = LeavableCall<Json>;
 
-/// An answer with what was found on the way, as "diagnostics".
-nb::object answered(const Json& json, const Diagnostics& found) {
-  nb::object answer = to_python(json);
-  answer["diagnostics"] = to_list(found);
-  return answer;
-}
-
-/// What `verb(job)` answers; it owns all that it takes.
-template <class Verb>
-nb::object answer_of(Verb verb) {
-  const auto job = std::make_shared<Job>();
-  const Json json = or_raise(unlocked([&] { return (*job)(std::move(verb)); }), job->found);
-  return answered(json, job->found);
+/// Raises for rules and engines that there are not.
+void check_known(const check::Selection& rules) {
+  or_raise(check_selection(rules));
+  const std::vector<std::string>& known = check::known_engines();
+  for (const std::string& engine : rules.engines) {
+    if (std::find(known.begin(), known.end(), engine) == known.end()) {
+      raise(Error(ErrorCode::Invalid, "\"" + engine + "\" is not an engine with rules of its own")
+                .with_rule("usage.value")
+                .with_fix("expected " + comma_list(known)));
+    }
+  }
 }
 
 nb::object check(const Files& paths, const OpenArguments& arguments, const std::string& profile,
-                 bool fix, bool suggested) {
+                 const std::map<std::string, std::vector<std::string>>& rules,
+                 const std::filesystem::path& baseline, bool fix, bool suggested) {
   CheckAssetsOptions options;
   options.check.open = open_options_of(arguments);
   options.check.readings = readings_of(arguments);
   options.check.profile = profile;
+  options.check.rules = {rules.at("only"), rules.at("skip"), rules.at("for_")};
+  check_known(options.check.rules);
+  options.baseline = baseline.string();
   options.correct = fix;
   options.suggested = suggested;
   std::vector<std::string> names;
@@ -148,62 +147,50 @@ nb::object compare(const std::filesystem::path& path, const OpenArguments& argum
   });
 }
 
-nb::object poses(const std::filesystem::path& path, const OpenArguments& arguments) {
-  return answer_of([path, open = open_options_of(arguments),
-                    readings = readings_of(arguments)](Job& job) -> Result<Json> {
-    TENON_TRY(const PoseOfAsset asset, pose_of_asset(path.string(), open, readings, {}, job.found));
-    return named_poses_json(asset);
-  });
-}
+/// What form an asset is made in, by the words that the command has for it; those of functions.py
+/// are known.
+struct AssetForm {
+  std::string names;   ///< "tutorial"; else those of today
+  std::string schema;  ///< "current", "legacy", "both"; else as usual
+  std::string robot_type;
 
-/// Keeps what was found under a name; the edits are in `json` then.
-Result<void> save_pose(const std::string& path, const OpenOptions& open, const PoseOfAsset& asset,
-                       const std::string& name, const std::string& robot, Job& job, Json& json) {
-  TENON_TRY(const Path keeper, robot_of_poses(asset, robot));
-  TENON_TRY(const physics::NamedPose saved, pose_to_save(asset, keeper, name, job.found));
-  TENON_TRY(const std::vector<AssetEdit> edits, save_edits(asset, keeper, {saved}));
-  EditedAsset edited;
-  if (!edits.empty()) {
-    Diagnostics again;  // the asset was read before
-    TENON_TRY(edited, edit_asset(path, edits, {open, "", ""}, again));
-    TENON_CHECK(check_may_write(job));
-    TENON_CHECK(write_files(edited.files));
-  }
-  json.update(edited_json(edits, edited, false));
-  return {};
-}
-
-nb::object pose(const std::filesystem::path& path, const OpenArguments& arguments,
-                const std::vector<std::string>& texts, const std::vector<std::string>& ik,
-                const std::vector<std::string>& rotation, const std::vector<std::string>& hold,
-                std::optional<double> tolerance, std::size_t starts, std::uint64_t seed,
-                const std::string& save, const std::string& robot) {
-  PoseRequest request;
-  request.pose = texts;
-  request.ik = ik;
-  request.rotation = rotation;
-  request.hold = hold;
-  request.tolerance = tolerance;
-  request.starts = starts;
-  request.seed = seed;
-  return answer_of([path, request, save, robot, open = open_options_of(arguments),
-                    readings = readings_of(arguments)](Job& job) -> Result<Json> {
-    TENON_TRY(const PoseOfAsset asset,
-              pose_of_asset(path.string(), open, readings, request, job.found));
-    Json json = posture_json(asset);
-    if (!save.empty() && asset.is_reached()) {
-      TENON_CHECK(save_pose(path.string(), open, asset, save, robot, job, json));
+  /// Raises for a kind of robot that there is not.
+  static AssetForm of(const std::map<std::string, std::string>& words) {
+    AssetForm form{words.at("names"), words.at("schema"), words.at("robot_type")};
+    const std::vector<std::string> known = structure::known_robot_types();
+    if (!form.robot_type.empty() &&
+        std::find(known.begin(), known.end(), form.robot_type) == known.end()) {
+      raise(Error(ErrorCode::Invalid, "\"" + form.robot_type + "\" is no kind of robot")
+                .with_rule("usage.value")
+                .with_fix("expected one of: " + comma_list(known)));
     }
-    return json;
-  });
-}
+    return form;
+  }
+  bool is_tutorial() const { return names == "tutorial"; }
+  structure::StructureOptions structure_options() const {
+    structure::StructureOptions options;
+    options.names = is_tutorial() ? structure::Names::Tutorial : structure::Names::Current;
+    options.robot_type = robot_type;
+    return options;
+  }
+  void apply_to(convert::ConvertOptions& robot) const {
+    using convert::SchemaGeneration;
+    robot.tutorial = is_tutorial();
+    robot.flat |= is_tutorial();
+    robot.robot_type = robot_type;
+    const bool both = schema.empty() ? is_tutorial() : schema == "both";
+    robot.schema = schema == "legacy" ? SchemaGeneration::Legacy
+                   : both             ? SchemaGeneration::Both
+                                      : SchemaGeneration::Current;
+  }
+};
 
 /// How a robot's description is to be read, as tenon_usd hands it over. `rules` are texts by the
 /// name of what they give: gains, armature, friction, collision.
 ConvertFileOptions convert_options(const OpenArguments& arguments, const std::string& name,
                                    const std::map<std::string, std::vector<std::string>>& rules,
                                    std::optional<double> density, bool start_valid, bool fix_base,
-                                   bool float_base, bool merge_fixed, bool scene,
+                                   bool float_base, bool merge_fixed, bool scene, bool flat,
                                    std::optional<bool> self_collision,
                                    const std::map<std::string, std::string>& packages,
                                    const std::string& model,
@@ -218,6 +205,7 @@ ConvertFileOptions convert_options(const OpenArguments& arguments, const std::st
   options.robot.float_base = float_base;
   options.robot.merge_fixed = merge_fixed;
   options.robot.scene = scene;
+  options.robot.flat = flat;
   options.robot.self_collision = self_collision;
   options.robot.density = density;
   if (start_valid) {
@@ -306,10 +294,15 @@ Result<std::optional<UpdatedAsset>> write_robot_file(ConvertedFile converted,
 
 /// A description as an asset: a folder of Asset Structure 3.0, or a file.
 Result<Json> import_robot(const std::string& input, const std::string& output,
-                          const ConvertFileOptions& options, bool force, const UpdateArguments& how,
-                          Job& job) {
+                          const ConvertFileOptions& options, const AssetForm& form, bool force,
+                          const UpdateArguments& how, Job& job) {
   GuardedRun guard;
   const bool folder = names_folder(output);
+  if (!folder && form.is_tutorial()) {
+    return Error(ErrorCode::Invalid, "names is about the files of a folder")
+        .with_rule("convert.option")
+        .with_fix("name a folder as the output, with a / at its end");
+  }
   if (how.update && !folder && output.ends_with(".usdz")) {
     return Error(ErrorCode::Unsupported, "a package cannot be updated")
         .with_fix("convert into a folder, or give force=True to replace the package");
@@ -319,7 +312,10 @@ Result<Json> import_robot(const std::string& input, const std::string& output,
   const RobotCounts counts = counts_of(converted);
   std::optional<UpdatedAsset> updated;
   if (folder) {
-    TENON_TRY(const structure::StructuredAsset asset, structured_robot(converted, job.found));
+    structure::StructureOptions structured = form.structure_options();
+    structured.all_engines = form.is_tutorial();
+    TENON_TRY(const structure::StructuredAsset asset,
+              structured_robot(converted, job.found, structured));
     TENON_TRY(updated, update_written(asset.package, output, how, job));
     if (!updated) {
       TENON_CHECK(check_may_write(job));
@@ -355,16 +351,19 @@ nb::object convert(const std::filesystem::path& input, const std::filesystem::pa
                    const OpenArguments& arguments, const std::string& name,
                    const std::map<std::string, std::vector<std::string>>& rules,
                    std::optional<double> density, bool start_valid, bool fix_base, bool float_base,
-                   bool merge_fixed, bool scene, std::optional<bool> self_collision,
+                   bool merge_fixed, bool scene, bool flat, std::optional<bool> self_collision,
                    const std::map<std::string, std::string>& packages, const std::string& model,
                    const std::map<std::string, std::string>& arg, bool force, bool update,
                    const std::string& conflicts, const std::string& format,
-                   const std::string& assets) {
-  const ConvertFileOptions options =
+                   const std::string& assets, const std::map<std::string, std::string>& words) {
+  ConvertFileOptions options =
       convert_options(arguments, name, rules, density, start_valid, fix_base, float_base,
-                      merge_fixed, scene, self_collision, packages, model, arg);
+                      merge_fixed, scene, flat, self_collision, packages, model, arg);
+  const AssetForm form = AssetForm::of(words);
+  form.apply_to(options.robot);
   const UpdateArguments how{update, conflicts};
-  return answer_of([input, output, options, force, how, format, assets](Job& job) -> Result<Json> {
+  return answer_of([input, output, options, form, force, how, format,
+                    assets](Job& job) -> Result<Json> {
     if (!is_asset(input)) {
       if (!format.empty() || !assets.empty()) {
         return Error(
@@ -373,7 +372,7 @@ nb::object convert(const std::filesystem::path& input, const std::filesystem::pa
             .with_rule("convert.option")
             .with_fix("leave them out");
       }
-      return import_robot(input.string(), output.string(), options, force, how, job);
+      return import_robot(input.string(), output.string(), options, form, force, how, job);
     }
     if (how.update) {
       return Error(ErrorCode::Unsupported,
@@ -388,10 +387,23 @@ nb::object convert(const std::filesystem::path& input, const std::filesystem::pa
 nb::object structure(const std::filesystem::path& path, const std::filesystem::path& folder,
                      const OpenArguments& arguments, const std::string& name, bool force,
                      const std::vector<std::string>& engines, bool update,
-                     const std::string& conflicts) {
-  structure::StructureOptions options;
+                     const std::string& conflicts, bool overridable_colliders,
+                     const std::map<std::string, std::string>& words) {
+  using structure::LinkNesting;
+  using structure::SchemaGeneration;
+  const AssetForm form = AssetForm::of(words);
+  structure::StructureOptions options = form.structure_options();
   options.name = name;
   options.engines = engines;
+  options.overridable_colliders = overridable_colliders;
+  options.schema = form.schema == "current"  ? SchemaGeneration::Current
+                   : form.schema == "legacy" ? SchemaGeneration::Legacy
+                   : form.schema == "both"   ? SchemaGeneration::Both
+                                             : SchemaGeneration::AsAuthored;
+  const std::string& links = words.at("links");
+  options.links = links == "flat"     ? LinkNesting::Flat
+                  : links == "nested" ? LinkNesting::Nested
+                                      : LinkNesting::AsAuthored;
   const UpdateArguments how{update, conflicts};
   const OpenOptions open = open_options_of(arguments);
   return answer_of([path, folder, options, open, force, how](Job& job) -> Result<Json> {
@@ -411,23 +423,6 @@ nb::object structure(const std::filesystem::path& path, const std::filesystem::p
     }
     return with_update(structured_json(asset), updated, how);
   });
-}
-
-void make_new(const std::filesystem::path& path, const std::string& up_axis, double meters_per_unit,
-              double kilograms_per_unit, const std::string& prim) {
-  or_raise(unlocked([&]() -> Result<void> {
-    if (bytes::stamp_of(path.string())) {
-      return Error(ErrorCode::Io, "there is a file of that name")
-          .in_file(path.string())
-          .with_rule("file.exists")
-          .with_fix("choose another name, or remove the file");
-    }
-    TENON_TRY(MadeFile made, new_asset(path.string(), {.up_axis = up_axis,
-                                                       .meters_per_unit = meters_per_unit,
-                                                       .kilograms_per_unit = kilograms_per_unit,
-                                                       .default_prim = prim}));
-    return write_made({std::move(made)});
-  }));
 }
 
 /// A file, and others whose names are relative to it.
@@ -457,9 +452,12 @@ nb::list engines() {
 }
 
 void bind_checks(nb::module_& module) {
-  module.def("check", &check, "paths"_a, "arguments"_a, "profile"_a, "fix"_a, "suggested"_a,
+  module.def("check", &check, "paths"_a, "arguments"_a, "profile"_a, "rules"_a, "baseline"_a,
+             "fix"_a, "suggested"_a,
              nb::sig("def check(paths: Sequence[str | os.PathLike[str]], arguments: "
-                     "OpenArguments, profile: str, fix: bool, suggested: bool) -> dict[str, Any]"));
+                     "OpenArguments, profile: str, rules: Mapping[str, Sequence[str]], "
+                     "baseline: str | os.PathLike[str], fix: bool, suggested: bool) "
+                     "-> dict[str, Any]"));
   module.def(
       "rules", [] { return to_python(rules_json()); }, nb::sig("def rules() -> dict[str, Any]"));
   module.def(
@@ -473,44 +471,32 @@ void bind_checks(nb::module_& module) {
                      "engines: Sequence[str], duration: float | None, time_step: float, "
                      "frames: float, trials: int, commands: str | os.PathLike[str], "
                      "bounds: str) -> dict[str, Any]"));
-  module.def("poses", &poses, "path"_a, "arguments"_a,
-             nb::sig("def poses(path: str | os.PathLike[str], arguments: OpenArguments) -> "
-                     "dict[str, Any]"));
-  module.def("pose", &pose, "path"_a, "arguments"_a, "texts"_a, "ik"_a, "rotation"_a, "hold"_a,
-             "tolerance"_a.none(), "starts"_a, "seed"_a, "save"_a, "robot"_a,
-             nb::sig("def pose(path: str | os.PathLike[str], arguments: OpenArguments, texts: "
-                     "Sequence[str], ik: Sequence[str], rotation: Sequence[str], hold: "
-                     "Sequence[str], tolerance: float | None, starts: int, seed: int, save: str, "
-                     "robot: str) -> dict[str, Any]"));
 }
 
 }  // namespace
 
 void bind_functions(nb::module_& module) {
   bind_checks(module);
+  bind_edit_functions(module);
   module.def("convert", &convert, "input"_a, "output"_a, "arguments"_a, "name"_a, "rules"_a,
              "density"_a.none(), "start_valid"_a, "fix_base"_a, "float_base"_a, "merge_fixed"_a,
-             "scene"_a, "self_collision"_a.none(), "packages"_a, "model"_a, "arg"_a, "force"_a,
-             "update"_a, "conflicts"_a, "format"_a, "assets"_a,
+             "scene"_a, "flat"_a, "self_collision"_a.none(), "packages"_a, "model"_a, "arg"_a,
+             "force"_a, "update"_a, "conflicts"_a, "format"_a, "assets"_a, "words"_a,
              nb::sig("def convert(input: str | os.PathLike[str], output: str | os.PathLike[str], "
                      "arguments: OpenArguments, name: str, rules: Mapping[str, Sequence[str]], "
                      "density: float | None, start_valid: bool, fix_base: bool, "
-                     "float_base: bool, merge_fixed: bool, scene: bool, "
+                     "float_base: bool, merge_fixed: bool, scene: bool, flat: bool, "
                      "self_collision: bool | None, "
                      "packages: Mapping[str, str], model: str, arg: Mapping[str, str], "
                      "force: bool, update: bool, "
-                     "conflicts: str, format: str, assets: str) -> dict[str, Any]"));
+                     "conflicts: str, format: str, assets: str, words: Mapping[str, str]) "
+                     "-> dict[str, Any]"));
   module.def("structure", &structure, "path"_a, "folder"_a, "arguments"_a, "name"_a, "force"_a,
-             "engines"_a, "update"_a, "conflicts"_a,
+             "engines"_a, "update"_a, "conflicts"_a, "overridable_colliders"_a, "words"_a,
              nb::sig("def structure(path: str | os.PathLike[str], "
                      "folder: str | os.PathLike[str], arguments: OpenArguments, name: str, "
-                     "force: bool, engines: Sequence[str], update: bool, conflicts: str) "
-                     "-> dict[str, Any]"));
-  module.def("new_asset", &make_new, "path"_a, "up_axis"_a, "meters_per_unit"_a,
-             "kilograms_per_unit"_a, "default_prim"_a,
-             nb::sig("def new_asset(path: str | os.PathLike[str], up_axis: str, "
-                     "meters_per_unit: float, kilograms_per_unit: float, "
-                     "default_prim: str) -> None"));
+                     "force: bool, engines: Sequence[str], update: bool, conflicts: str, "
+                     "overridable_colliders: bool, words: Mapping[str, str]) -> dict[str, Any]"));
   module.def("write_files", &write_files_beside, "path"_a, "contents"_a, "beside"_a,
              nb::sig("def write_files(path: str | os.PathLike[str], contents: bytes, "
                      "beside: dict[str, bytes]) -> None"));

@@ -14,6 +14,7 @@
 #include "guarded_write.h"
 
 #include "tenon/asset/physics_options.h"
+#include "tenon/asset/undoing/undo_edit.h"
 
 namespace tenon::python {
 
@@ -200,10 +201,12 @@ Result<OpenOptions> OpenedStage::options_as_edited() const {
   return options;
 }
 
-Result<std::vector<EditedFile>> OpenedStage::save() {
+Result<std::vector<EditedFile>> OpenedStage::save(bool undoable) {
   TENON_TRY(std::vector<EditedFile> files, edited_files());
   if (!files.empty()) {
-    TENON_CHECK(write_files(files));
+    std::vector<bytes::ReplacedFile> replaced;
+    TENON_CHECK(write_files(files, undoable ? &replaced : nullptr));
+    keep_for_undo("Stage.save()", path_, std::move(replaced), bytes::Files());
   }
   editor_.reset();
   done_.clear();

@@ -77,9 +77,10 @@ class OpenedStage {
   /// False where there is nothing to take back, or to do again.
   Result<bool> undo();
   Result<bool> redo();
-  /// What edits make of the files, and the same written. Errors: those of write_files.
+  /// What edits make of the files, and the same written; `undoable`: what they were is kept for
+  /// undo_edit. Errors: those of write_files.
   Result<std::vector<EditedFile>> edited_files() const;
-  Result<std::vector<EditedFile>> save();
+  Result<std::vector<EditedFile>> save(bool undoable);
   /// How the scene with all edits is opened again: edited files are in memory over those on disk.
   /// Errors: those of edited_files.
   Result<OpenOptions> options_as_edited() const;

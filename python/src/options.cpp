@@ -61,6 +61,8 @@ void bind_options(nb::module_& module) {
               "Folders that files may be read from; empty: all.");
   bind_option(bound, "allow_read", &OpenOptions::allowed_reads,
               "Folders and files that may go into outputs.");
+  bind_option(bound, "max_work", &OpenOptions::max_work,
+              "Units of work that composition may take; 0: as usual.");
   bound.def(
       "set_contents",
       [](OpenArguments& arguments, const std::string& path, const nb::bytes& contents) {

@@ -24,14 +24,16 @@ struct PrimOf {
   bool operator==(const PrimOf&) const = default;
 };
 
+/// Raises that there is no prim at the path, with the one that was meant.
+[[noreturn]] void raise_no_prim(const stage::Stage& stage, Path wanted);
+
 /// Calls with the prim; raises where it is not there any more.
 template <class Call>
 auto with_prim(const PrimOf& prim, const Call& call) {
   const auto stage = prim.stage->access();
   const stage::Prim found = stage->prim(prim.path);
   if (!found) {
-    raise(Error(ErrorCode::NotFound, "there is no prim <" + prim.path.str() + ">")
-              .with_rule("edit.no-prim"));
+    raise_no_prim(*stage, prim.path);
   }
   return call(found);
 }

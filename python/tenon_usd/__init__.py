@@ -44,6 +44,7 @@ from .functions import (
     convert,
     diff,
     doctor,
+    edit_poses,
     engines,
     explain,
     info,
@@ -55,6 +56,7 @@ from .functions import (
     rule,
     rules,
     structure,
+    undo,
     where,
 )
 
@@ -88,6 +90,7 @@ __all__ = [
     "convert",
     "diff",
     "doctor",
+    "edit_poses",
     "engines",
     "explain",
     "info",
@@ -99,6 +102,7 @@ __all__ = [
     "rule",
     "rules",
     "structure",
+    "undo",
     "where",
 ]
 

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _tenon
-from .options import OpenOptions, PathLike, arguments_of, path_of
+from .errors import InvalidError
+from .options import OpenOptions, PathLike, arguments_of, list_of, path_of
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -56,6 +58,10 @@ def where(
 def check(
     *paths: PathLike,
     profile: str = "",
+    only: Sequence[str] = (),
+    skip: Sequence[str] = (),
+    for_: Sequence[str] = (),
+    baseline: PathLike = "",
     fix: bool = False,
     suggested: bool = False,
     **options: Unpack[OpenOptions],
@@ -63,13 +69,22 @@ def check(
     """Checks assets, or all assets below folders, against the rules (docs/rules).
 
     `profile` "isaac-3.0" holds the files to Asset Structure 3.0 as well, "simready" to NVIDIA's
-    requirements (docs/simready.md). `fix` writes what has a safe correction, with `suggested` also
-    the names and types that messages suggest. Returns
+    requirements (docs/simready.md). `only` and `skip` are rules or families of rules ("mass",
+    "joint.body-missing"), also of those that `fix` corrects; `for_` are engines that read the
+    asset themselves, for the rules of portability. Findings in the file `baseline` are known.
+    NotFoundError for a rule that there is not. `fix` writes what has a safe correction, with
+    `suggested` also the names and types that messages suggest. Returns
     {"diagnostics": findings with file, line, prim and fix, "summary": counts of errors, warnings,
     infos, "assets"}.
     """
     names = [path_of(path) for path in paths]
-    return _tenon.check(names, arguments_of(options), profile, fix, suggested)
+    rules = {
+        "only": list_of("only", only),
+        "skip": list_of("skip", skip),
+        "for_": list_of("for_", for_),
+    }
+    return _tenon.check(names, arguments_of(options), profile, rules, path_of(baseline), fix,
+                        suggested)
 
 
 def rules() -> list[dict[str, Any]]:
@@ -136,13 +151,42 @@ def compare(
     )
 
 
-def poses(path: PathLike, **options: Unpack[OpenOptions]) -> list[dict[str, Any]]:
+def poses(
+    path: PathLike, *, export: PathLike = "", **options: Unpack[OpenOptions]
+) -> list[dict[str, Any]]:
     """The named poses that an asset keeps: {"name", "path", "robot", "startLink", "endLink",
     "valid", "joints"}, and of each joint {"joint", "dof", "value", "lower", "upper", "fixed",
-    "follows", "problem"} [rad, m].
+    "follows", "problem"} [rad, m]. `export` writes them as a file of Isaac Sim's robot poser
+    (.json), too.
     """
-    rows: list[dict[str, Any]] = _tenon.poses(path_of(path), arguments_of(options))["poses"]
+    answer = _tenon.poses(path_of(path), arguments_of(options), path_of(export))
+    rows: list[dict[str, Any]] = answer["poses"]
     return rows
+
+
+def edit_poses(
+    path: PathLike,
+    *,
+    rename: Mapping[str, str] | None = None,
+    remove: Sequence[str] = (),
+    import_: PathLike = "",
+    robot: str = "",
+    **options: Unpack[OpenOptions],
+) -> dict[str, Any]:
+    """Renames the named poses of an asset, removes some, or keeps all of a file, in the file that
+    owns them; pose(save=...) keeps one.
+
+    One of: `rename`, from old names to new ones; `remove`, names; `import_`, a file as Isaac Sim's
+    robot poser writes it (.json), for the prim `robot`, which is the only robot where it is not
+    given. Returns {"edits", "written", "diagnostics"}. NotFoundError for a pose that is not there.
+    """
+    tasks = [bool(rename), bool(remove), bool(path_of(import_))]
+    if sum(tasks) != 1:
+        raise ValueError("give one of rename, remove and import_")
+    return _tenon.edit_poses(
+        path_of(path), arguments_of(options), dict(rename or {}), list_of("remove", remove),
+        path_of(import_), robot
+    )
 
 
 def pose(
@@ -196,6 +240,43 @@ def _check_conflicts(conflicts: str | None) -> None:
         raise ValueError(f"conflicts is {conflicts!r}; expected edits, source or fail")
 
 
+def _check_form(names: str, schema: str, schemas: Sequence[str]) -> None:
+    if names not in ("", "current", "tutorial"):
+        raise ValueError(f"names is {names!r}; expected current or tutorial")
+    if schema not in ("", *schemas):
+        raise ValueError(f"schema is {schema!r}; expected one of {', '.join(schemas)}")
+
+
+# What convert() can be given of a description that becomes an asset alone.
+_OF_ASSETS = ("name", "gains", "armature", "friction", "collision", "density", "fix_base",
+              "float_base", "merge_fixed", "scene", "flat", "self_collision", "names", "schema",
+              "robot_type", "packages", "model", "arg")
+
+
+def _check_export(input: PathLike, given: Mapping[str, Any]) -> None:
+    ending = os.path.splitext(path_of(input))[1].lower()
+    named = [name for name in _OF_ASSETS if given[name] not in (None, "", False)]
+    if ending in (".usd", ".usda", ".usdc", ".usdz") and named:
+        raise InvalidError(f"{named[0]} is about assets that are made, and this makes a "
+                           f"description; leave {named[0]} out")
+
+
+def _check_robot(start: str, density: float | None) -> None:
+    if start not in ("zero", "valid"):
+        raise ValueError(f"start is {start!r}; expected zero or valid")
+    if density is not None and not 0 < density <= 1e6:
+        raise ValueError(f"density is {density!r}; expected above 0, up to 1e6 kg/m^3")
+
+
+def _robot_rules(gains: Any, armature: Any, friction: Any, collision: Any) -> dict[str, list[str]]:
+    return {
+        "gains": _rules(gains or None, lambda pair: f"{float(pair[0])!r},{float(pair[1])!r}"),
+        "armature": _rules(armature, lambda value: repr(float(value))),
+        "friction": _rules(friction, lambda value: repr(float(value))),
+        "collision": _rules(collision, str),
+    }
+
+
 def _rules(given: Any, text: Callable[[Any], str]) -> list[str]:
     """A value, a mapping of them or a text as the command takes them: VALUE or REGEX=VALUE."""
     if given is None:
@@ -225,7 +306,11 @@ def convert(
     float_base: bool = False,
     merge_fixed: bool = False,
     scene: bool = False,
+    flat: bool = False,
     self_collision: bool | None = None,
+    names: str = "",
+    schema: str = "",
+    robot_type: str = "",
     packages: Mapping[str, PathLike] | None = None,
     model: str = "",
     arg: Mapping[str, str] | None = None,
@@ -251,9 +336,13 @@ def convert(
     move and have colliders and no mass. With `start` "valid" joints whose limits exclude 0 start
     inside of them; "zero" is the pose that the description has.
     `self_collision` says whether links of the robot touch each other; None is no for URDF and what
-    the model says for SDF and MJCF. `packages` are folders of ROS packages and models of Gazebo by
-    name, `model` is the one of an SDF file with several, `arg` are arguments of a file with macros
-    of xacro. Files that were edited since they were written stay, unless `force`.
+    the model says for SDF and MJCF. With `flat` links are side by side below the robot, not nested.
+    `schema` is which schemas of vendors joints get: "current" (as without it), "legacy" or "both";
+    `names` "tutorial" names files and scopes of a folder as the tutorial of Isaac Sim 6 does;
+    `robot_type` is isaac:robotType, which no description says. `packages` are folders of ROS
+    packages and models of Gazebo by name, `model` is the one of an SDF file with several, `arg` are
+    arguments of a file with macros of xacro. Files that were edited since they were written stay,
+    unless `force`.
     Returns {"output", "links", "joints", "diagnostics"}; of MJCF "bodies" in place of links, of
     configurations in Python joints alone. What the description lacks is in the diagnostics.
 
@@ -264,31 +353,24 @@ def convert(
     "fail", which writes nothing and raises InvalidError of the rule "update.conflict".
     """
     _check_conflicts(conflicts)
-    if start not in ("zero", "valid"):
-        raise ValueError(f"start is {start!r}; expected zero or valid")
-    if density is not None and not 0 < density <= 1e6:
-        raise ValueError(f"density is {density!r}; expected above 0, up to 1e6 kg/m^3")
-    rules = {
-        "gains": _rules(gains or None, lambda pair: f"{float(pair[0])!r},{float(pair[1])!r}"),
-        "armature": _rules(armature, lambda value: repr(float(value))),
-        "friction": _rules(friction, lambda value: repr(float(value))),
-        "collision": _rules(collision, str),
-    }
-    folders = {key: str(folder) for key, folder in (packages or {}).items()}
+    _check_form(names, schema, ("current", "legacy", "both"))
+    _check_export(input, locals())
+    _check_robot(start, density)
     return _tenon.convert(
         path_of(input),
         path_of(output),
         arguments_of(options),
         name,
-        rules,
+        _robot_rules(gains, armature, friction, collision),
         density,
         start == "valid",
         fix_base,
         float_base,
         merge_fixed,
         scene,
+        flat,
         self_collision,
-        folders,
+        {key: str(folder) for key, folder in (packages or {}).items()},
         model,
         {key: str(value) for key, value in (arg or {}).items()},
         force,
@@ -296,6 +378,7 @@ def convert(
         conflicts or "",
         format,
         assets,
+        {"names": names, "schema": schema, "robot_type": robot_type},
     )
 
 
@@ -308,15 +391,27 @@ def structure(
     force: bool = False,
     update: bool = False,
     conflicts: str | None = None,
+    names: str = "",
+    schema: str = "",
+    links: str = "",
+    overridable_colliders: bool = False,
+    robot_type: str = "",
     **options: Unpack[OpenOptions],
 ) -> dict[str, Any]:
     """An asset in Asset Structure 3.0, proven to be the same and written to `folder`.
 
-    Without a folder nothing is written. `engines` get a variant and a layer of their own. Returns
+    Without a folder nothing is written. `engines` get a variant and a layer of their own. `names`,
+    `schema` and `robot_type` are those of convert(), `schema` "as-authored" where it is not given.
+    `links` "flat" puts the bodies of a robot side by side, "nested" each below the one that carries
+    it. With `overridable_colliders` meshes that collide are no instances, so that each engine's
+    layer may tune them. Returns
     {"interface", "files", "variants", "selection", "moved", "diagnostics"}. `update` and
     `conflicts` are those of convert(), for an asset in `folder` that was made of `path`.
     """
     _check_conflicts(conflicts)
+    _check_form(names, schema, ("as-authored", "current", "legacy", "both"))
+    if links not in ("", "as-authored", "flat", "nested"):
+        raise ValueError(f"links is {links!r}; expected as-authored, flat or nested")
     if update and folder is None:
         raise ValueError("update is about an asset in a folder; give the folder")
     return _tenon.structure(
@@ -328,6 +423,8 @@ def structure(
         list(engines),
         update,
         conflicts or "",
+        overridable_colliders,
+        {"names": names, "schema": schema, "robot_type": robot_type, "links": links},
     )
 
 
@@ -338,13 +435,43 @@ def new(
     meters_per_unit: float = 1.0,
     kilograms_per_unit: float = 1.0,
     default_prim: str = "World",
+    time_codes_per_second: float | None = None,
+    start_time_code: float | None = None,
+    end_time_code: float | None = None,
+    force: bool = False,
 ) -> _tenon.Stage:
     """Writes a file with the units [m, kg] and an empty Xform as its default prim, and opens it.
 
-    Raises FileError where there is a file of that name.
+    Time codes are those of motions; without them there are 24 in a second, and no first and last
+    one. Raises FileError where there is a file of that name, unless `force` replaces it.
     """
-    _tenon.new_asset(path_of(path), up_axis, meters_per_unit, kilograms_per_unit, default_prim)
+    if up_axis not in ("Y", "Z"):
+        raise ValueError(f"up_axis is {up_axis!r}; expected Y or Z")
+    units = {
+        "meters_per_unit": meters_per_unit,
+        "kilograms_per_unit": kilograms_per_unit,
+        "time_codes_per_second": time_codes_per_second,
+    }
+    for name, value in units.items():
+        if value is not None and not 0 < value <= 1e9:
+            raise ValueError(f"{name} is {value!r}; expected a number above 0, up to 1e9")
+    for name, value in {"start_time_code": start_time_code, "end_time_code": end_time_code}.items():
+        if value is not None and not -1e12 <= value <= 1e12:
+            raise ValueError(f"{name} is {value!r}; expected a number from -1e12 to 1e12")
+    _tenon.new_asset(path_of(path), up_axis, meters_per_unit, kilograms_per_unit, default_prim,
+                     time_codes_per_second, start_time_code, end_time_code, force)
     return open(path)
+
+
+def undo(path: PathLike, *, dry_run: bool = False) -> dict[str, Any]:
+    """Takes back the last edit of an asset in its files, as `tenon undo` does: one of the command,
+    or of Stage.save(undoable=True). A stage that is open does not follow.
+
+    `path` is the asset, or a file of it. With `dry_run` nothing is written. Returns {"dryRun",
+    "verb", "asset", "files": [{"file", "diff", "removed"}]}. NotFoundError where no edit is kept,
+    InvalidError where a file has changed since.
+    """
+    return _tenon.undo(path_of(path), dry_run)
 
 
 def engines() -> list[dict[str, Any]]:

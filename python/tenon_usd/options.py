@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict
@@ -39,6 +40,8 @@ class OpenOptions(TypedDict, total=False):
     """Folders that files may be read from; all where it is empty."""
     allow_read: Sequence[PathLike]
     """Folders and files that may go into outputs beside those of the asset."""
+    max_work: int
+    """Units of work that composition may take (docs/limits.md), for scenes large by their arcs."""
     contents: Mapping[PathLike, str | bytes]
     """Texts or bytes in memory that stand for files, over the disk: layers that are not saved."""
     readings: Mapping[str, str]
@@ -56,7 +59,7 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
         elif name == "session":
             arguments.session = os.fspath(value)
         elif name in ("search_paths", "sandbox", "allow_read"):
-            setattr(arguments, name, [os.fspath(path) for path in _list_of(name, value)])
+            setattr(arguments, name, [os.fspath(path) for path in list_of(name, value)])
         elif name == "variant_fallbacks":
             arguments.variant_fallbacks = {k: list(v) for k, v in value.items()}
         elif name == "contents":
@@ -65,10 +68,12 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
                 arguments.set_contents(os.fspath(path), bytes_of)
         elif name == "readings":
             arguments.readings = dict(value)
+        elif name == "max_work":
+            arguments.max_work = _work_of(value)
         elif name == "payloads":
             arguments.payloads = bool(value)
         elif name in OpenOptions.__annotations__:
-            setattr(arguments, name, _list_of(name, value))
+            setattr(arguments, name, list_of(name, value))
         else:
             close = difflib.get_close_matches(name, OpenOptions.__annotations__, 1)
             raise TypeError(f"got an unexpected keyword argument {name!r}; "
@@ -82,11 +87,18 @@ def path_of(path: PathLike) -> str:
     return os.fsdecode(path)
 
 
-def _list_of(name: str, value: Any) -> list[Any]:
+def list_of(name: str, value: Any) -> list[Any]:
     """A str is a sequence of its letters, which nobody means."""
     if isinstance(value, (str, os.PathLike)):
         raise TypeError(f"{name} is a list, not {value!r}; write [{value!r}]")
     return list(value)
+
+
+def _work_of(value: Any) -> int:
+    work = operator.index(value)
+    if work < 1:
+        raise ValueError(f"max_work is {work}; expected 1 or more")
+    return work
 
 
 def _select_physics(arguments: OpenArguments, text: str) -> None:

@@ -77,9 +77,14 @@ def authoring_words(
     properties = options.get("set", {})
     return (
         [f"{path}={named}" if named else str(path)],
-        {name.replace("_", "-"): _word(one) for name, one in options.items() if name != "set"},
+        {_option(name): _word(one) for name, one in options.items() if name != "set"},
         [f"{name}={as_text(value)}" for name, value in properties.items()],
     )
+
+
+def _option(name: str) -> str:
+    """Of the command; words of Python have a '_' behind them: with_."""
+    return name.removesuffix("_").replace("_", "-")
 
 
 def _word(value: Any) -> str:

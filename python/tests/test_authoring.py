@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """What Python authors beyond properties, prims and schemas: time samples, metadata, variants and
-what is in them, arcs, order, connections; and the verbs of the command that edit."""
+what is in them, arcs, order, connections; and requests as the command has them."""
 
-import json
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,6 @@ import support
 
 import tenon_usd as tenon
 
-TENON = Path(tenon.__file__).parent / "bin/tenon"
 PART = '''#usda 1.0
 (
     defaultPrim = "Part"
@@ -28,44 +25,6 @@ def Sphere "Other"
 {
 }
 '''
-
-# Each verb of the command that edits files, and the names of the package that do the same.
-EDITING = {
-    "add": ("Stage.add", "Stage.define"),
-    "check": ("check",),
-    "convert": ("convert",),
-    "new": ("new",),
-    "pairs": ("Stage.set",),
-    "pose": ("pose",),
-    "remove": ("Stage.remove", "Prim.remove"),
-    "rename": ("Prim.rename", "Prim.rename_property"),
-    "set": ("Stage.set", "Prim.set", "Prim.clear", "Prim.apply", "Prim.unapply",
-            "Stage.set_metadata"),
-    "structure": ("structure",),
-    "undo": ("Stage.undo", "Stage.redo"),
-    "variant": ("Prim.select_variant", "Prim.add_variant", "Prim.remove_variant"),
-}
-# What else writes, and why the package has no call for it.
-OTHERWISE = {
-    "bake": "a layer of a motion: recorded by tenon_usd.logs",
-    "colliders": "shapes are computed; Stage.set(collider=...) chooses how one is made",
-    "excite": "tenon_usd.identify", "identify": "tenon_usd.identify",
-    "drives": "answers; with numbers of actuators it is Stage.set(drive=...)",
-    "record": "pictures: tenon_usd.rendering",
-    "report": "a page", "view": "a page",
-    "strip": "a copy without physics", "zip": "a package",
-    "sweep": "tenon_usd.sweep", "sim": "World", "bench": "World",
-    "tune": "gains are computed; Stage.set(drive=...) writes them",
-}
-ANSWERING = {"cat", "compare", "completion", "diff", "doctor", "dump", "dump-index", "explain",
-             "help", "inertia", "info", "manual", "physics", "test-runner", "tree", "version",
-             "where"}
-# Options of `tenon set`, and the argument of Stage.set() or what else does the same.
-SET = {"apply": "apply", "clear": "clear", "collider": "collider", "drive": "drive",
-       "filter": "filter", "mass": "mass", "material": "material", "mimic": "mimic",
-       "remove": "remove", "all-engines": "all_engines", "engine": "engine",
-       "filter-overlaps": "filter_overlaps", "in": "layer", "type": "type_name"}
-ELSEWHERE = {"layer": "Stage.set_metadata", "physics": "open(physics=)", "dry-run": "undo()"}
 
 
 class AuthoringTestCase(support.FilesTestCase):
@@ -304,6 +263,48 @@ class Requests(AuthoringTestCase):
         with self.assertRaisesRegex(tenon.InvalidError, "cube"):
             self.stage.add("/World/c", "cubee")
 
+    def test_an_option_that_is_a_word_of_python(self):
+        self.stage.define("/World/lid", "Cube")
+        self.stage.add("/World/box", "filtered-pair", with_="/World/lid")
+        self.assertEqual(self.box["physics:filteredPairs"], ["/World/lid"])
+        self.stage.remove("/World/box", "filtered-pair", with_="/World/lid")
+        self.assertFalse(self.box.has_api("PhysicsFilteredPairsAPI"))
+
+    def test_all_prims_that_a_pattern_means(self):
+        lid = self.stage.define("/World/lid", "Cube")
+        self.stage.define("/World/other", "Xform")
+        changed = self.stage.add_matching("box|lid|other", "collider")
+        self.assertEqual(changed, [self.box, lid])
+        self.assertTrue(lid.has_api("PhysicsCollisionAPI"))
+        self.refused("edit.no-prim", tenon.NotFoundError,  # they have it
+                     lambda: self.stage.add_matching("box|lid", "collider"))
+        fix = self.refused("edit.bad-argument", tenon.InvalidError,
+                           lambda: self.stage.add_matching("box", "cube"))
+        self.assertRegex(fix, r"call add\(\)")
+        self.assertTrue(self.stage.undo())
+        self.assertFalse(self.box.has_api("PhysicsCollisionAPI"))
+
+    def test_messages_name_arguments(self):
+        with self.assertRaisesRegex(tenon.InvalidError, r"^error: mass= heavy is not a mass"):
+            self.stage.add("/World/box", "mass", mass="heavy")
+        with self.assertRaisesRegex(tenon.InvalidError, r"with_= is not an option of scope"):
+            self.stage.add("/World/s", "scope", with_="/World/box")
+        with self.assertRaisesRegex(tenon.InvalidError, r"set_metadata\(\) takes timeCodes"):
+            self.stage.set_metadata("metersPerUnits", 1)
+
+    def test_another_file_than_the_one_that_owns_it(self):
+        hand = self.copied_hand()
+        stage = tenon.open(hand)
+        joint = stage["/inspire_hand/Physics/right_index_1_joint"]
+        for place in (*joint.apply("PhysxJointAPI", layer=hand.name),
+                      *joint.add_targets("physics:body0", "/inspire_hand", layer=hand.name),
+                      *stage.default_prim.add_variant("look", "red", layer=hand.name)):
+            self.assertEqual(Path(place["file"]), hand)
+        stage.define("/inspire_hand/eye", "Camera", layer=hand.name)
+        self.assertEqual(stage.save(), [str(hand)])
+        (place,) = stage[joint.path].apply("MjcJointAPI", engine="mujoco")
+        self.assertEqual(Path(place["file"]).name, "mujoco.usda")
+
     def test_set(self):
         stage = tenon.open(self.copied_hand(), physics="physics")
         joint, palm = "/inspire_hand/Physics/right_index_1_joint", "/inspire_hand/r_base_link"
@@ -318,32 +319,6 @@ class Requests(AuthoringTestCase):
         stage.set(filter=[(palm, "/inspire_hand/right_index_2")])
         with self.assertRaisesRegex(TypeError, "maas"):
             stage.set(maas={})
-
-
-class Verbs(support.FilesTestCase):
-    """A new verb, kind or option of the command has its call, or a reason why not."""
-
-    def run_tenon(self, *arguments):
-        return json.loads(subprocess.run([TENON, *arguments, "--json"], capture_output=True,
-                                         text=True, check=True).stdout)
-
-    def test_every_verb_that_edits(self):
-        verbs = {verb["name"] for verb in self.run_tenon("help")["verbs"]}
-        self.assertEqual(verbs - EDITING.keys() - OTHERWISE.keys() - ANSWERING, set())
-        self.assertLessEqual(EDITING.keys(), verbs)
-        for names in EDITING.values():
-            for name in names:
-                owner, _, call = name.rpartition(".")
-                self.assertTrue(callable(getattr(getattr(tenon, owner) if owner else tenon, call)))
-
-    def test_every_option_of_set(self):
-        verbs = {verb["name"]: {name.lstrip("-") for option in verb["options"]
-                                for name in option["names"] if name.startswith("--")}
-                 for verb in self.run_tenon("help")["verbs"]}
-        shared = verbs["set"] & verbs["tree"]  # how files are read: arguments of open()
-        self.assertEqual(verbs["set"] - shared | {"physics"}, SET.keys() | ELSEWHERE.keys())
-        for argument in SET.values():
-            self.assertRegex(tenon.Stage.set.__doc__, rf"\b{argument}: ")
 
 
 if __name__ == "__main__":

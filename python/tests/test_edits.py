@@ -187,6 +187,22 @@ class Refused(support.FilesTestCase):
         self.assertEqual(self.stage.define("/World/y").type_name, "Xform")
         self.assertEqual(self.stage.define("/World/z", "").type_name, "")
 
+    def test_prims_and_properties_that_there_are_not(self):
+        self.stage.define("/World/parts")
+        box = self.stage.define("/World/parts/box", "Cube")
+        for written, meant in (("/World/parts/bxo", "/World/parts/box"),
+                               ("/Wrold/parts/box", "/World/parts/box")):
+            with self.assertRaises(tenon.NotFoundError) as caught:
+                self.stage[written]
+            self.assertEqual((caught.exception.rule, caught.exception.fix),
+                             ("edit.no-prim", f"did you mean {meant}?"))
+        with self.assertRaisesRegex(tenon.NotFoundError, "did you mean size"):
+            box["sise"]
+        with self.assertRaisesRegex(tenon.NotFoundError, "Stage.prims lists all"):
+            self.stage["/nothing/like/it"]
+        with self.assertRaisesRegex(tenon.NotFoundError, "Prim.properties lists all"):
+            box["nothing:like:it"]
+
     def test_a_target_that_is_not_there_is_told(self):
         box = self.stage.define("/World/box", "Cube")
         joint = self.stage.define("/World/j", "PhysicsRevoluteJoint")

@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sysconfig
+import unittest.mock
 
 import support
 
@@ -163,6 +164,49 @@ class Poses(support.FilesTestCase):
         with self.assertRaises(tenon.NotFoundError):
             tenon.pose(path, "bend")
 
+    def test_poses_are_renamed_removed_and_exchanged_as_by_the_program(self):
+        path, file = self.copied_hand(), self.folder / "poses.json"
+        def names():
+            return [row["name"] for row in tenon.poses(path)]
+        tenon.pose(path, "right_index_1_joint=40", save="bent")
+        self.assertEqual([row["name"] for row in tenon.poses(path, export=file)], ["bent"])
+        again = self.folder / "again.json"
+        printed("pose", path, "--export", again)
+        self.assertEqual(file.read_bytes(), again.read_bytes())
+        self.assertTrue(tenon.edit_poses(path, rename={"bent": "hook"})["written"])
+        self.assertEqual(names(), ["hook"])
+        self.assertTrue(tenon.edit_poses(path, import_=file)["written"])
+        self.assertEqual(sorted(names()), ["bent", "hook"])
+        self.assertTrue(tenon.edit_poses(path, remove=["bent", "hook"])["written"])
+        self.assertEqual(names(), [])
+        with self.assertRaises(tenon.NotFoundError):
+            tenon.edit_poses(path, remove=["hook"])
+        for wrong in ({}, {"rename": {"a": "b"}, "remove": ["c"]}):
+            with self.assertRaisesRegex(ValueError, "one of rename, remove and import_"):
+                tenon.edit_poses(path, **wrong)
+        with self.assertRaises(tenon.Error):  # what was read is never written over
+            tenon.poses(path, export=path)
+
+    def test_checks_of_some_rules(self):
+        def rules(**how):
+            return {row["rule"] for row in tenon.check(support.HAND, **how)["diagnostics"]}
+        found = rules()
+        family = sorted(found)[0].partition(".")[0]
+        of_it = {rule for rule in found if rule.startswith(family + ".")}
+        self.assertEqual(rules(only=[family]), of_it)
+        self.assertEqual(rules(skip=[family]), found - of_it)
+        self.assertEqual(rules(for_=["physx"]) - found, {"portability.soft-mimic"})
+        known = self.folder / "known.json"
+        printed("check", support.HAND, "--write-baseline", known)
+        summary = tenon.check(support.HAND, baseline=known)["summary"]
+        self.assertEqual((summary["warnings"], summary["infos"]), (0, 0))
+        with self.assertRaisesRegex(tenon.NotFoundError, r"tenon_usd.rules\(\)"):
+            tenon.check(support.HAND, only=["masss"])
+        with self.assertRaisesRegex(tenon.InvalidError, "physy.*mujoco"):
+            tenon.check(support.HAND, for_=["physy"])
+        with self.assertRaisesRegex(TypeError, "only is a list"):
+            tenon.check(support.HAND, only="mass")
+
 
 class Files(support.FilesTestCase):
     def test_robots_go_in_and_out(self):
@@ -287,6 +331,76 @@ class Files(support.FilesTestCase):
         self.assertTrue((self.folder / "structured" / answer["interface"]).exists())
         with self.assertRaises(tenon.InvalidError):
             tenon.structure(path, path.parent)
+
+    def test_forms_of_assets(self):
+        path = self.copied_hand()
+        files = [row["file"] for row in tenon.structure(path, names="tutorial")["files"]]
+        self.assertNotEqual(files, [row["file"] for row in tenon.structure(path)["files"]])
+        tenon.structure(path, self.folder / "flat", links="flat", schema="both",
+                        robot_type="End Effector")
+        prim = tenon.open(self.folder / "flat/inspire_hand.usda").default_prim
+        self.assertEqual(prim["isaac:robotType"], "End Effector")
+        for wrong in ({"links": "round"}, {"schema": "old"}, {"names": "mine"}):
+            with self.assertRaisesRegex(ValueError, f"{[*wrong][0]} is '.*expected"):
+                tenon.structure(path, **wrong)
+        with self.assertRaisesRegex(tenon.InvalidError, "kind of robot"):
+            tenon.structure(path, robot_type="Toaster")
+
+        def prims(**how):
+            tenon.convert(ROBOT, self.folder / "arm.usda", force=True, **how)
+            return {prim.path for prim in tenon.open(self.folder / "arm.usda").prims}
+        self.assertNotEqual(prims(flat=True), prims())
+        tenon.convert(ROBOT, self.folder / "tutorial", names="tutorial", gains=(100, 10))
+        with self.assertRaisesRegex(tenon.InvalidError, "files of a folder"):
+            prims(names="tutorial")
+        with self.assertRaisesRegex(tenon.InvalidError, "flat is about assets that are made"):
+            tenon.convert(path, self.folder / "hand.urdf", flat=True)
+
+    def test_new_files(self):
+        path = self.folder / "new.usda"
+        stage = tenon.new(path, time_codes_per_second=60, start_time_code=1, end_time_code=120)
+        self.assertEqual([stage.metadata(name) for name in (
+            "timeCodesPerSecond", "startTimeCode", "endTimeCode")], [60, 1, 120])
+        with self.assertRaisesRegex(tenon.FileError, "force=True"):
+            tenon.new(path)
+        self.assertEqual(tenon.new(path, up_axis="Y", force=True).metadata("upAxis"), "Y")
+        for wrong in ({"up_axis": "X"}, {"meters_per_unit": 0}, {"kilograms_per_unit": -1},
+                      {"time_codes_per_second": 0}, {"end_time_code": 1e300}):
+            with self.assertRaisesRegex(ValueError, f"{[*wrong][0]} is .*expected"):
+                tenon.new(self.folder / "other.usda", **wrong)
+        self.assertFalse((self.folder / "other.usda").exists())
+
+    def test_what_was_saved_is_undone(self):
+        path, joint = self.copied_hand(), "/inspire_hand/Physics/right_index_1_joint"
+        with unittest.mock.patch.dict(os.environ, XDG_STATE_HOME=str(self.folder / "state")):
+            stage = tenon.open(path)
+            stage[joint]["physics:upperLimit"] = 60
+            stage.save()
+            with self.assertRaises(tenon.NotFoundError) as caught:
+                tenon.undo(path)
+            self.assertEqual(caught.exception.rule, "undo.none")
+            stage[joint]["physics:upperLimit"] = 50
+            stage.save(undoable=True)
+            (file,) = tenon.undo(path, dry_run=True)["files"]
+            self.assertRegex(file["diff"], r"-.*upperLimit = 50\n\+.*upperLimit = 60\n")
+            self.assertEqual(tenon.open(path)[joint]["physics:upperLimit"], 50)
+            self.assertEqual(tenon.undo(path)["verb"], "Stage.save()")
+            self.assertEqual(tenon.open(path)[joint]["physics:upperLimit"], 60)
+            printed("set", path, f"{joint}.physics:upperLimit=40")
+            tenon.undo(path)
+            stage = tenon.open(path)
+            self.assertEqual(stage[joint]["physics:upperLimit"], 60)
+            stage[joint]["physics:upperLimit"] = 30
+            stage.save(undoable=True)
+            self.assertEqual(printed("undo", path)["verb"], "Stage.save()")
+
+    def test_composition_may_take_more(self):
+        found = tenon.open(support.HAND, max_work=1).diagnostics
+        self.assertEqual(found[0].rule, "compose.work-exceeded")
+        self.assertIn("allow more with max_work=", found[0].fix)  # an argument that there is
+        self.assertFalse(tenon.open(support.HAND, max_work=10**9).diagnostics)
+        with self.assertRaisesRegex(ValueError, "max_work is 0"):
+            tenon.open(support.HAND, max_work=0)
 
     def test_what_is_there(self):
         self.assertEqual({row["name"] for row in tenon.engines()}, {"jolt", "mujoco", "physx"})

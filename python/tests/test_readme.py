@@ -34,7 +34,8 @@ class Snippets(support.FilesTestCase):
     def run_there(self, *arguments):
         done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True,
                               cwd=self.folder, check=False,
-                              env={**os.environ, "MPLBACKEND": "agg"})
+                              env={**os.environ, "MPLBACKEND": "agg",
+                                   "XDG_STATE_HOME": str(self.folder / "state")})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 

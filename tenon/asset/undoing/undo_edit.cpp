@@ -70,6 +70,25 @@ Result<UndoneEdit> undo_edit(const std::string& asset, const bytes::Files& files
   return edit;
 }
 
+void keep_for_undo(const std::string& verb, const std::string& asset,
+                   std::vector<bytes::ReplacedFile> replaced, const bytes::Files& files) {
+  if (replaced.empty()) {
+    return;
+  }
+  if (const auto log = bytes::UndoLog::of_user()) {
+    std::string file = files->real_path(bytes::absolute_file_path(asset));
+    [[maybe_unused]] const auto kept = log->add({verb, std::move(file), std::move(replaced)});
+  }
+}
+
+Result<void> restore_undone(const UndoneEdit& edit) {
+  TENON_CHECK(write_files(edit.files));
+  if (const auto log = bytes::UndoLog::of_user()) {
+    log->forget(edit.record);
+  }
+  return {};
+}
+
 answers::Json undone_json(const UndoneEdit& edit, bool dry_run) {
   answers::Json files = answers::Json::array();
   for (const EditedFile& file : edit.files) {

@@ -26,6 +26,15 @@ struct UndoneEdit {
 /// it; Missing (undo.no-folder) where there is no folder for edits. `files` are those on the disk.
 Result<UndoneEdit> undo_edit(const std::string& asset, const bytes::Files& files);
 
+/// Keeps what an edit replaced for undo_edit; none is kept of an edit that replaced nothing. That
+/// it cannot be kept is no fault of the edit: undo_edit says so then. `files` are those on the
+/// disk.
+void keep_for_undo(const std::string& verb, const std::string& asset,
+                   std::vector<bytes::ReplacedFile> replaced, const bytes::Files& files);
+/// Writes the files as they were before the edit, which is forgotten then. Errors: those of
+/// write_files.
+Result<void> restore_undone(const UndoneEdit& edit);
+
 /// {"dryRun", "verb", "asset", "files": [{"file", "diff", "removed", "made"}]}; "diff" is null for
 /// what is no text.
 answers::Json undone_json(const UndoneEdit& edit, bool dry_run);
