@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import json
 import os
 import sys
@@ -40,6 +41,19 @@ class ProgressLine:
         self.show("")
 
 
+def text_of(error: Exception) -> str:
+    """Of errors of the system the file first, as everywhere, and what may have been meant."""
+    if type(error).__module__ != "builtins" or not isinstance(error, OSError) \
+            or not isinstance(error.filename, str):
+        return str(error)
+    folder, name = os.path.split(error.filename)
+    near: list[str] = []
+    if isinstance(error, FileNotFoundError) and os.path.isdir(folder or "."):
+        near = difflib.get_close_matches(name, os.listdir(folder or "."), 1)
+    return f"{error.filename}: {error.strerror}" + (
+        f"; did you mean {os.path.join(folder, near[0])}?" if near else "")
+
+
 def fail(error: Exception, code: int, schema: str | None, lines: Sequence[str] | None = None,
          **fields: Any) -> int:
     """Prints an error, with a schema also as JSON with `fields`; -> the code. `lines` are those of
@@ -47,11 +61,13 @@ def fail(error: Exception, code: int, schema: str | None, lines: Sequence[str] |
     try:
         if schema is not None:
             print(json.dumps({"tool": "tenon", "schema": schema, "ok": False,
-                              "error": str(error), **fields}), flush=True)
+                              "error": text_of(error), **fields}), flush=True)
         else:
             sys.stdout.flush()
     except OSError:  # Python flushes once more at its end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    for line in str(error).split("\n") if lines is None else lines:
-        print(f"error: {line}", file=sys.stderr)
+    for line in text_of(error).split("\n") if lines is None else lines:
+        # Control characters come from files, and would be orders to a terminal.
+        shown = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in line)
+        print(f"error: {shown}", file=sys.stderr)
     return code

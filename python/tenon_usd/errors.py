@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -130,6 +131,14 @@ class UnstableError(Error, ArithmeticError):
 
 class MissingError(Error, RuntimeError):
     """An engine or an optional part is not installed."""
+
+
+def check_file(path: str | os.PathLike[str]) -> None:
+    """Raises OSError for what would hold a reader or has no end: pipes, sockets, devices."""
+    mode = os.stat(path).st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise OSError(errno.EINVAL, "not a regular file; save what it gives to one",
+                      os.fspath(path))
 
 
 CLASSES: dict[str, type[Error]] = {

@@ -23,6 +23,7 @@ from typing import Any
 
 import numpy as np
 
+from .errors import check_file
 from .log import (
     AXES,
     BODY,
@@ -72,7 +73,7 @@ def _contacts_path(path: str) -> str:
 
 
 def _read_csv(path: str) -> Log:
-    with open(path, encoding="utf-8", newline="") as file:
+    with open(path, encoding="utf-8-sig", newline="") as file:
         columns = _read_table(file)
     contacts = None
     if os.path.exists(_contacts_path(path)):
@@ -222,25 +223,47 @@ def _jsonl_contacts(lines: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None
     return {name: np.array([row[name] for row in rows]) for name in names}
 
 
+#: What values raise that are not of the types that logs have.
+NOT_OURS = (ValueError, KeyError, TypeError, AttributeError, IndexError, OverflowError)
+
+
+def _sample(line: Mapping[str, Any]) -> dict[str, float]:
+    """The numbers of a line of JSON by the names of their columns, and "time"."""
+    found = {"time": float(line["time"])}
+    for key, value in line.items():
+        if key in ("bodies", "joints", "sensors"):
+            for path, each in value.items():
+                _flat(each, path, key == "bodies", found)
+        elif key not in ("time", "contacts"):
+            _flat(value, key, False, found)
+    return found
+
+
 def _read_jsonl(path: str) -> Log:
-    with open(path, encoding="utf-8") as file:
+    lines: list[dict[str, Any]] = []
+    samples: list[dict[str, float]] = []
+    number = 0
+    with open(path, encoding="utf-8-sig") as file:
         try:
-            lines = [json.loads(line) for line in file if line.strip()]
-            samples = []
-            for line in lines:
-                found: dict[str, float] = {}
-                for key, value in line.items():
-                    if key in ("bodies", "joints", "sensors"):
-                        for path_, each in value.items():
-                            _flat(each, path_, key == "bodies", found)
-                    elif key not in ("time", "contacts"):
-                        _flat(value, key, False, found)
-                samples.append(found)
-            names = list(samples[0]) if samples else []
-            columns = {name: [sample.get(name, np.nan) for sample in samples] for name in names}
-            return make_log([line["time"] for line in lines], columns, _jsonl_contacts(lines))
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise LogError(f"a line is none of a log: {error}") from error
+            for number, text in enumerate(file, 1):
+                if text.strip():
+                    lines.append(json.loads(text))
+                    samples.append(_sample(lines[-1]))
+        except json.JSONDecodeError as error:
+            raise LogError(f"line {number}, column {error.colno}: {error.msg}") from error
+        except UnicodeDecodeError as error:
+            raise LogError(f"is no text in UTF-8: {error.reason}") from error
+        except (*NOT_OURS, RecursionError) as error:
+            raise LogError(f"line {number} is none of a log: {error!r}") from error
+    names = list(samples[0]) if samples else ["time"]
+    if len(names) * len(samples) > 1_000_000 + 10 * sum(map(len, samples)):
+        raise LogError(f"most lines lack most of the {len(names)} numbers of the first one")
+    columns = {name: [sample.get(name, np.nan) for sample in samples] for name in names}
+    try:
+        contacts = _jsonl_contacts(lines)
+    except NOT_OURS as error:
+        raise LogError(f"a contact is none of a log: {error!r}") from error
+    return make_log(columns.pop("time"), columns, contacts)
 
 
 def _read_parquet(path: str) -> Log:
@@ -269,6 +292,7 @@ def read(path: str | os.PathLike[str]) -> Log:
     ending = os.path.splitext(path)[1]
     if ending not in READERS:
         raise LogError(f"{path}: logs that can be read end in {', '.join(READERS)}")
+    check_file(path)
     try:
         return READERS[ending](path)
     except (LogError, ValueError, KeyError, IndexError) as error:

@@ -18,6 +18,7 @@ import subprocess
 import sys
 import sysconfig
 import unittest
+import zipfile
 from unittest import mock
 
 import numpy as np
@@ -28,10 +29,13 @@ try:
 
     import tenon_usd as tenon
     from tenon_usd.errors import InvalidError, NotFoundError
+    from tenon_usd.identify.channels import Reading
     from tenon_usd.identify.excite_command import main as excite_main
     from tenon_usd.identify.identifiable import judge
     from tenon_usd.identify.identify_command import _parser, main
-    from tenon_usd.identify.log import Log
+    from tenon_usd.identify.joints import AssetJoint
+    from tenon_usd.identify.log import Log, LogError
+    from tenon_usd.identify.log_files import read_log
     from tenon_usd.identify.model import Held, Model, joined_logs, windows_of
     from tenon_usd.identify.overlay import make_overlay, write_overlay
     from tenon_usd.identify.parameters import (FAMILIES, UNSUPPORTED, Parameter, ParametersError,
@@ -133,6 +137,9 @@ class Rows(support.FilesTestCase):
         with self.assertRaises(ParametersError) as caught:
             rows_from_file(str(path))
         self.assertEqual([fault.line for fault in caught.exception.faults], [2, 9, 6, 8])
+        self.assertRaises(ParametersError, rows_from_file, str(self.written("none.toml", "# no\n")))
+        row, = rows_from_file(str(self.written("r.toml", '\n[[parameter]]\nfamily = "delay"\n')))
+        self.assertEqual(row.place, f"{self.folder / 'r.toml'}:2: ")
 
 
 class Parts(unittest.TestCase):
@@ -289,6 +296,12 @@ class Solving(Robot):
         model = self.model(log)
         parameters = select(self.rows, model.plant, log)
         state = str(self.folder / "state.json")
+        with open(state, "w", encoding="utf-8") as file:
+            file.write("a log of an hour")
+        self.assertRaises(InvalidError, solve, model, parameters, state=state)
+        with open(state, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "a log of an hour")
+        os.unlink(state)
 
         def interrupt(what, simulations, cost):
             if simulations > 5:
@@ -413,6 +426,70 @@ class Command(Robot):
                if not option["positional"]} - {"-h", "--help"}
         listed = {name for action in _parser()._actions for name in action.option_strings}
         self.assertEqual(listed - {"-h", "--help", "--json", "-q", "--quiet"}, own)
+
+
+class CostlyLogs(support.FilesTestCase):
+    """Files that took gigabytes, never ended, or ended with a traceback."""
+
+    JOINTS = tuple(AssetJoint(f"/arm/{name}", f"/arm/{name}", "rotZ", True, -4.0, 4.0, 60.0, 10.0)
+                   for name in ("shoulder", "elbow"))
+    TIMES = np.arange(0, 1, 0.01)
+
+    def refused(self, name, rule, line=0):
+        with self.assertRaises(LogError) as caught:
+            read_log(self.folder / name, self.JOINTS)
+        self.assertEqual((caught.exception.rule, caught.exception.line), (rule, line),
+                         str(caught.exception))
+        return str(caught.exception)
+
+    def put(self, text, name="log.csv"):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return self.folder / name
+
+    def test_archives(self):
+        path, place = self.folder / "log.npz", np.sin(np.stack([self.TIMES, self.TIMES], 1))
+        names = ["shoulder", "elbow"]
+        for rule, arrays in (("log.number", {"position": place.astype(str)}),
+                             ("log.number", {"position": place[:, :, None]}),
+                             ("log.columns", {"position": place, "q": place})):
+            np.savez(path, time=self.TIMES, joints=names, **arrays)
+            self.refused("log.npz", rule)
+        for times in (place, self.TIMES.astype(str)):
+            np.savez(path, time=times, columns=names, values=place)
+            self.refused("log.npz", "log.time")
+        np.savez(path, time=self.TIMES, joints=names, position=place)
+        with zipfile.ZipFile(path, "a") as archive:
+            archive.writestr("readme.txt", "beside the arrays")
+        self.assertEqual(len(read_log(path, self.JOINTS)[0]), len(self.TIMES))
+        np.savez(path, time=self.TIMES, joints=names, position=np.full_like(place, np.nan))
+        self.refused("log.npz", "log.not-finite")
+        np.savez_compressed(path, time=np.zeros(10_000_000))
+        self.refused("log.npz", "log.too-large")
+
+    def test_what_is_no_file_and_times(self):
+        os.mkfifo(self.folder / "pipe.csv")
+        os.symlink("/dev/zero", self.folder / "zero.csv")
+        for name in ("pipe.csv", "zero.csv"):
+            self.assertRaises(OSError, read_log, self.folder / name, self.JOINTS)
+        self.put("time,shoulder\n" + "".join(f"{at}e-12,0\n" for at in range(50)))
+        self.refused("log.csv", "log.time", 3)
+        start = 1_700_000_000_000_000_000
+        rows = [f"{start + at * 10_000_000},0" for at in range(50)]
+        self.put("time,shoulder\n" + "\n".join([*rows[:9], ",0", *rows[10:]]))
+        self.refused("log.csv", "log.time", 11)
+        path = self.put("time,shoulder\n" + "\n".join([*rows[:9], " ", *rows[9:]]))
+        log, _ = read_log(path, self.JOINTS, Reading(check=False))
+        np.testing.assert_allclose(log.times, np.arange(50) / 100)
+
+    def test_lines_of_json(self):
+        whole = '{"time": 0, "joints": {"/arm/shoulder": {"position": [1]}}}\n'
+        for line in ("[" * 100000, '{"time": 1' + "0" * 400 + "}", '{"time": 1, "a": {"b": "x',
+                     "[1]", "{}", '{"time": 1, "force": [1, 2, 3, 4, 5]}'):
+            self.put(whole + line + "\n", "log.jsonl")
+            self.assertIn("line 2", self.refused("log.jsonl", "log.damaged"))
+        many = ", ".join(f'"k{at}": 1' for at in range(20000))
+        self.put('{"time": 0, ' + many + "}\n" + '{"time": 1}\n' * 5000, "log.jsonl")
+        self.refused("log.jsonl", "log.damaged")
 
 
 class Page(support.FilesTestCase):

@@ -26,6 +26,7 @@ import numpy as np
 import sweep_source
 from sweep_source import PLAN, Stone
 
+from tenon_usd._command import text_of
 from tenon_usd.sweep import (Cases, ExtraMissing, FolderError, Outcome, PlanError, Results,
                              load_plan, plan_from_table, run_on_threads, shard_of)
 from tenon_usd.sweep.command import main
@@ -117,6 +118,39 @@ class Plans(Folder):
         path = self.folder / "bytes.toml"
         path.write_bytes(b"asset = \"\xff\"\n")
         self.assertRaises(PlanError, load_plan, str(path))
+
+    def test_files_that_would_cost_much_or_hold_us(self):
+        """Each takes minutes or gigabytes, or ends with a traceback, where nothing looks for it."""
+        row = 'asset = "a"\n[[vary]]\nscale = "m"\n'
+        large = "grid = {from = 0, to = 1, count = 1000000}\n"
+        for text, words in (
+                ("duration = 1" + "0" * 400, "64 bits"), ("duration = 1" + "0" * 5000, "64 bits"),
+                ("a = 0x" + "f" * 5000, "64 bits"), ("a = " + "[" * 5000 + "]" * 5000, "too deep"),
+                ("a" + ".a" * 20000 + " = 1", "names"), ("[a" + ".a" * 20000 + "]\n", "names"),
+                ('asset = "a"\n' + "".join(row[12:] + f'name = "n{at}"\n' + large
+                                           for at in range(40)), "cases or more"),
+                ('asset = "a"\n' + "[[vary]]\n" * 100000, "further faults"),
+                ("".join(f"k{at} = 1\n" for at in range(50000)), "further faults"),
+                ('asset = "a"\n' + '[[metric]]\nof = "x"\n' * 30000, "further faults"),
+                ('asset = "a\\u0000b"\n', "one line"), (row + 'grid = ["a\\n"]\n', "one line"),
+                (row + "random = [" + "[1]," * 100000 + "]\n", "...")):
+            began = time.process_time()
+            faults = self.faults(text)
+            with self.subTest(text[:40]):
+                self.assertIn(words, " ".join(fault[2] for fault in faults))
+                self.assertLess(sum(len(fault[2]) for fault in faults), 10000)
+                self.assertLess(time.process_time() - began, 20)
+        os.mkfifo(self.folder / "pipe.toml")
+        self.assertRaises(OSError, load_plan, str(self.folder / "pipe.toml"))
+        self.put("\ufeff" + PLAN, "bom.toml")
+        self.assertEqual(load_plan(str(self.folder / "bom.toml")).seed, 7)
+        self.assertEqual(self.faults('seed = 7\na = "\n')[0][1], 2)
+
+    def test_errors_of_files_name_them(self):
+        with self.assertRaises(FileNotFoundError) as caught:
+            load_plan(str(self.folder / "plam.toml"))
+        self.assertEqual(text_of(caught.exception), f"{self.folder}/plam.toml: No such file or "
+                         f"directory; did you mean {self.folder}/plan.toml?")
 
     def test_rows_of_the_command_line(self):
         self.assertEqual(vary_from_text("bodyMass@/A=0.8..1.2"),
@@ -333,6 +367,8 @@ class Resuming(Folder):
             chunks[2].write_bytes(chunks[3].read_bytes())
             chunks[4].write_bytes(os.urandom(500))
             chunks[5].unlink()
+            chunks[6].unlink()
+            os.mkfifo(chunks[6])
             self.sweep("-o", folder, code=1)
             self.assertEqual((folder / f"result.{form}").read_bytes(), whole)
 
@@ -351,6 +387,8 @@ class Resuming(Folder):
         self.put("{}", "plan.json")
         _, told = self.sweep("-o", self.folder, code=2)
         self.assertIn("not of a sweep", told)
+        self.put("[" * 100000, "plan.json")
+        self.sweep("-o", self.folder, code=2)
         plan = load_plan(str(self.folder / "plan.toml"))
         results = Results(str(self.folder / "r"), plan, "d", "csv")
         self.assertRaises(FolderError, results.write_chunk, 0, [])

@@ -208,6 +208,9 @@ def joined(raw: RawLog, commands: RawLog | None, joints: Sequence[AssetJoint], m
                          f"--map COLUMN=JOINT.position; columns are {listed(raw.columns)}; joints "
                          f"are {listed(each.short for each in joints)}")
     log = _log_of(raw, found, joints)
+    if log.position is None or not np.isfinite(log.position).any():
+        raise raw.refuse("log.not-finite", "no position of a joint has a value",
+                         "log positions, or name their column with --map COLUMN=JOINT.position")
     log = _signed(log, names, how)
     log = _whole(log, raw, how, notes)
     if how.check:

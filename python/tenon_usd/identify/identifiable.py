@@ -72,12 +72,20 @@ def residuals(model: Model, predicted: dict[str, Array], weights: dict[str, Arra
     return np.concatenate(parts, axis=1)
 
 
+def moments_of(model: Model) -> tuple[Array, Array]:
+    """Of each residual the number of its moment in the log, and that of its channel and joint."""
+    parts = [np.nonzero(np.isfinite(values)) for values in model.measured.values()]
+    samples, joints = model.windows.samples, len(model.log.joints)
+    return (np.concatenate([window * samples + sample for window, sample, _ in parts]),
+            np.concatenate([at * joints + joint for at, (_, _, joint) in enumerate(parts)]))
+
+
 def sensitivity(model: Model, parameters: list[Parameter], values: Array,
                 weights: dict[str, Array]) -> tuple[Array, Array]:
     """Residuals (numbers,) at `values`, and their derivatives (numbers, P).
 
-    Of efforts by delays they are 0: a command that holds changes an effort at a moment, or not, and
-    motion tells when."""
+    Which command counts at a sample is the same with a little more delay: it changes an effort by
+    what the joint does, not by a jump."""
     ahead, behind = np.zeros(len(parameters)), np.zeros(len(parameters))
     for at, parameter in enumerate(parameters):
         if parameter.family == "delay":
@@ -88,16 +96,12 @@ def sensitivity(model: Model, parameters: list[Parameter], values: Array,
     both = np.flatnonzero(behind)
     sets = np.concatenate([values[None], values[None] + np.diag(ahead),
                            values[None] - np.diag(behind)[both]])
-    apart = residuals(model, model.predict(parameters, sets), weights)
+    clock = sets.copy()
+    clock[:, both] = values[both]
+    apart = residuals(model, model.predict(parameters, sets, clock), weights)
     lower = np.repeat(apart[:1], len(parameters), axis=0)
     lower[both] = apart[1 + len(parameters):]
     slopes = (apart[1:1 + len(parameters)] - lower).T / (ahead + behind)
-    at = 0
-    for name in model.measured:
-        count = int(np.isfinite(model.measured[name]).sum())
-        if name == "effort":
-            slopes[at:at + count, both] = 0.0
-        at += count
     return apart[0], np.asarray(slopes)
 
 
@@ -120,13 +124,12 @@ def prior_rows(parameters: list[Parameter], values: Array) -> tuple[Array, Array
     return np.array(apart), np.array(rows).reshape(len(rows), len(parameters))
 
 
-def judge(parameters: list[Parameter], jacobian: Array, values: Array,
-          inflation: float = 1.0) -> Identifiability:
-    """What derivatives of residuals in deviations of the noise say. `inflation` is how many
-    samples count as one."""
+def judge(parameters: list[Parameter], jacobian: Array, values: Array) -> Identifiability:
+    """What derivatives of residuals in deviations of the noise say, as if all residuals were
+    independent of each other."""
     scales = scales_of(parameters, values)
     _, known = prior_rows(parameters, values)
-    scaled = np.concatenate([jacobian / np.sqrt(inflation), known]) * scales
+    scaled = np.concatenate([jacobian, known]) * scales
     seen = np.sqrt((scaled ** 2).sum(axis=0))
     # Columns of equal length: what is left of small singular values is that columns are alike.
     lengths = np.where(seen > 1e-9, seen, 1.0)

@@ -15,7 +15,7 @@ import os
 import sys
 from typing import Any
 
-from .._command import ProgressLine, arguments_of, fail
+from .._command import ProgressLine, arguments_of, fail, text_of
 from .._toml import FileError as TomlError
 from ..errors import Error, InvalidError, MissingError
 from ..functions import open as open_stage
@@ -206,7 +206,7 @@ def _print(arguments: argparse.Namespace, value: dict[str, Any], lines: list[str
 
 
 def _fail(error: Exception, code: int, in_json: bool) -> int:
-    lines = error.lines if isinstance(error, RefusedError) else str(error).split("\n")
+    lines = error.lines if isinstance(error, RefusedError) else text_of(error).split("\n")
     return fail(error, code, "tenon.identify/1" if in_json else None,
                 [line.removeprefix("error: ") for line in lines])
 

@@ -23,7 +23,7 @@ from ..errors import Error
 from ..sweep.cases import ExtraMissing
 from .log import Array
 from .model import Held, Model, has
-from .parameters import Parameter
+from .parameters import POWERS, Parameter
 
 #: Samples of the inverse dynamics.
 MAX_SAMPLES = 400
@@ -70,9 +70,10 @@ def linear_start(model: Model, parameters: list[Parameter]) -> Array:
 
 
 def _of(parameters: list[Parameter], family: str, joint: str) -> int | None:
-    """The number of a parameter of one joint alone."""
+    """The number of a parameter of one joint alone, or of one and its followers."""
     for at, each in enumerate(parameters):
-        if each.family == family and each.paths == (joint,):
+        if each.family == family and each.paths[0] == joint and (
+                len(each.paths) == 1 or each.weights):
             return at
     return None
 
@@ -111,9 +112,8 @@ def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list
             matrix, wanted, mine = _drive_rows(position, log.times, delay, place, speed,
                                                log.effort[:, column], own, drive)
             if mine:
-                low = np.array([parameters[i].low for i in mine])
-                high = np.array([parameters[i].high for i in mine])
-                made = _bounded(optimize, matrix[good], wanted[good], low, high)
+                made = _bounded(optimize, matrix[good], wanted[good],
+                                *_bounds(parameters, mine))
                 wanted = wanted - matrix @ made
                 found[column, at] = (made, mine)
             errors[at] += float((wanted[good] ** 2).sum()) / max(
@@ -121,11 +121,15 @@ def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list
     if not errors.any():
         return
     best = int(np.argmin(errors))
+    # Efforts tell between which samples a command counts; here all delays are the same to them.
+    alike = np.flatnonzero(errors <= errors[best] * (1 + 1e-6))
+    alike = alike[np.abs(delays[alike] - delays[best]) <= log.step]
     for (_, at), (made, mine) in found.items():
         if at == best:
             values[mine] = made
     for each in shared:
-        values[each] = min(max(delays[best], parameters[each].low), parameters[each].high)
+        values[each] = min(max(float(delays[alike].mean()), parameters[each].low),
+                           parameters[each].high)
 
 
 def _drive_rows(position: Held, times: Array, delay: float, place: Array, speed: Array,
@@ -153,8 +157,7 @@ def _plants(model: Model, parameters: list[Parameter], values: Array, moves: lis
     wanted = [each for each in parameters if each.family in ("armature", "damping", "friction")]
     if not wanted or any(move is None for move in moves):
         return
-    every = max(1, len(log) // MAX_SAMPLES)
-    at = np.arange(3, len(log) - 3, every)
+    at = np.arange(3, len(log) - 3, max(1, len(log) // MAX_SAMPLES))
     needed = _inverse(model, moves, at)
     if needed is None:
         return
@@ -168,20 +171,42 @@ def _plants(model: Model, parameters: list[Parameter], values: Array, moves: lis
         # Where a joint hardly moves the sign of its speed is not known.
         still = 0.05 * float(np.max(np.abs(speed)) or 1.0)
         columns = {"armature": turn, "damping": speed, "friction": np.tanh(speed / still)}
-        rest = log.effort[at, column] - needed[:, column]
-        plant = model.plant.joints[joint]
-        kept = []
+        rest = log.effort[at, column] - _with_followers(model, needed, column)
         for family, number in own:
-            if number is None:
-                rest = rest - getattr(plant, family) * columns[family]
-            else:
-                kept.append(columns[family])
+            rest = rest - _known(model, parameters, family, number, joint) * columns[family]
+        kept = [columns[family] for family, number in own if number is not None]
         good = np.isfinite(rest)
         if good.sum() < 3 * len(mine):
             continue
-        low = np.array([parameters[i].low for i in mine])
-        high = np.array([parameters[i].high for i in mine])
-        values[mine] = _bounded(optimize, np.stack(kept, axis=1)[good], rest[good], low, high)
+        values[mine] = _bounded(optimize, np.stack(kept, axis=1)[good], rest[good],
+                                *_bounds(parameters, mine))
+
+
+def _bounds(parameters: list[Parameter], mine: list[int]) -> tuple[Array, Array]:
+    return (np.array([parameters[i].low for i in mine]),
+            np.array([parameters[i].high for i in mine]))
+
+
+def _with_followers(model: Model, needed: Array, column: int) -> Array:
+    """What a joint has to exert for itself and for those that follow it."""
+    joints = model.log.joints
+    total = needed[:, column]
+    for k, other in enumerate(joints):
+        leader, ratio = model.plant.followers.get(other, ("", 0.0))
+        if leader == joints[column]:
+            total = total + ratio * needed[:, k]
+    return total
+
+
+def _known(model: Model, parameters: list[Parameter], family: str, number: int | None,
+           joint: str) -> float:
+    """What the asset says of a joint and its followers, as the joint feels it, without those that
+    the parameter means."""
+    asked = parameters[number].paths if number is not None else ()
+    paths = {joint: 1.0, **{path: abs(ratio) for path, (leader, ratio)
+                            in model.plant.followers.items() if leader == joint}}
+    return float(sum(ratio ** POWERS[family] * getattr(model.plant.joints[path], family)
+                     for path, ratio in paths.items() if path not in asked))
 
 
 def _inverse(model: Model, moves: list[Any], at: npt.NDArray[np.int64]) -> Array | None:

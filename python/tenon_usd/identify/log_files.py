@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import MissingError
+from ..errors import MissingError, check_file
 from .channels import Reading, joined
 from .joints import AssetJoint, asset_joints
 from .log import Finding, Log, LogError
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 FORMATS = ("a .csv, .tsv, .npz, .jsonl, .parquet or .mcap file, a folder of a ROS 2 bag "
            "(metadata.yaml) or of a LeRobot data set (meta/info.json)")
 MAX_EPISODES = 100_000
+#: Bytes that an archive may unpack to, and such bytes more for each of its own.
+UNPACKED = 64 << 20
+UNPACKED_PER_BYTE = 40
 #: What is about a file and not about its bytes.
 UNREADABLE = (FileNotFoundError, PermissionError, IsADirectoryError)
 
@@ -99,6 +102,7 @@ def _refusal(rule: str, message: str, path: str, fix: str = "", row: int = 0,
 
 
 def _check_size(path: str) -> None:
+    check_file(path)
     size = os.stat(path).st_size
     if size > MAX_BYTES:
         raise _refusal("log.too-large", f"has {size} bytes; at most {MAX_BYTES}", path,
@@ -130,7 +134,8 @@ def _read_csv(path: str, how: Reading) -> RawLog:
         raise _refusal("log.text", f"is no text in UTF-8: {error.reason} at byte {error.start}",
                        path, "save it as UTF-8") from None
     except csv.Error as error:
-        raise _refusal("log.text", f"is no table: {error}", path) from None
+        raise _refusal("log.text", f"is no table: {error}", path,
+                       "look for a quote that is not closed") from None
 
 
 def _separator(head: str) -> str:
@@ -178,11 +183,12 @@ def _whole_times(path: str, head: int, separator: str, at: int, count: int) -> A
     with open(path, encoding="utf-8-sig", newline="") as file:
         for _ in range(head):
             next(file)
-        texts = [row[at] for row in csv.reader(file, delimiter=separator) if len(row) > at]
+        texts = [row[at] for row in csv.reader(file, delimiter=separator)
+                 if len(row) > 1 or (row and row[0].strip())]
     try:
         return np.array([int(text) for text in texts[:count]], dtype=np.int64)
     except (ValueError, OverflowError):
-        return np.array([float(text) for text in texts[:count]])
+        return np.array([float(text or "nan") for text in texts[:count]])
 
 
 def _check_names(names: list[str], path: str, line: int) -> None:
@@ -209,7 +215,7 @@ def _numbers(row: list[str], names: list[str], path: str, line: int) -> list[flo
             try:
                 float(text or "nan")
             except ValueError:
-                raise _refusal("log.number", f"`{text[:40]}` is no number", path,
+                raise _refusal("log.number", f"{text[:40]!r} is no number", path,
                                "correct the cell, or leave it empty", line, name) from None
         raise
 
@@ -242,6 +248,7 @@ def _read_npz(path: str, how: Reading) -> RawLog:
     names = [str(each) for key in JOINT_NAMES if key in arrays for each in arrays[key].ravel()]
     columns: dict[str, Any] = {}
     for key, values in arrays.items():
+        _check_signal(key, values, path)
         if values.ndim == 1 and values.dtype.kind in "fiub":
             columns[key] = values
         elif values.ndim == 2 and values.dtype.kind in "fiub":
@@ -251,8 +258,19 @@ def _read_npz(path: str, how: Reading) -> RawLog:
             if values.shape[1] != len(names):
                 raise _refusal("log.ragged", f"has {values.shape[1]} columns, while `joints` names "
                                f"{len(names)}", path, "one name for each column", 0, key)
-            columns.update({f"{name}.{ARRAYS[key]}": values[:, k] for k, name in enumerate(names)})
+            parts = {f"{name}.{ARRAYS[key]}": values[:, k] for k, name in enumerate(names)}
+            if len(parts) < len(names) or parts.keys() & columns.keys():
+                raise _refusal("log.columns", "gives a joint a signal that it has already", path,
+                               "leave one of the arrays, or of the joints, out", 0, key)
+            columns.update(parts)
     return finished(table_of(list(columns), columns, path, how.time))
+
+
+def _check_signal(key: str, values: Any, path: str) -> None:
+    """An array with the name of a signal is one."""
+    if key in ARRAYS and (values.ndim not in (1, 2) or values.dtype.kind not in "fiub"):
+        raise _refusal("log.number", f"is an array of {values.dtype} of the shape {values.shape}",
+                       path, "numbers, rows x joints", 0, key)
 
 
 def _arrays(path: str) -> dict[str, Any]:
@@ -260,11 +278,14 @@ def _arrays(path: str) -> dict[str, Any]:
     try:
         with zipfile.ZipFile(path) as archive:
             whole = sum(entry.file_size for entry in archive.infolist())
-        if whole > 8 * MAX_VALUES:
-            raise _refusal("log.too-large", f"unpacks to {whole} bytes; at most {8 * MAX_VALUES}",
-                           path, "cut the log into parts")
+        most = min(8 * MAX_VALUES, UNPACKED + UNPACKED_PER_BYTE * os.stat(path).st_size)
+        if whole > most:
+            raise _refusal("log.too-large", f"unpacks to {whole} bytes; at most {most}",
+                           path, "cut the log into parts, or write it with numpy.savez")
         with np.load(path, allow_pickle=False) as file:
-            return {name: file[name] for name in file.files}
+            # What is beside the arrays has another ending, and comes as bytes.
+            return {name: values for name in file.files
+                    if not isinstance(values := file[name], bytes)}
     except (LogError, *UNREADABLE):
         raise
     except Exception as error:  # what zipfile, zlib and NumPy raise for damaged bytes
@@ -278,8 +299,10 @@ def _own_log(path: str, how: Reading) -> RawLog:
 
     try:
         read = logs.read(path)
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise _refusal("log.damaged", f"is no log of a run: {error}", path) from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        why = str(error).removeprefix(f"{path}: ")
+        raise _refusal("log.damaged", f"is no log of a run: {why}", path,
+                       "write it again with `tenon sim -o`") from None
     columns: dict[str, Any] = {"time": read.time, **read.columns}
     return finished(table_of(list(columns), columns, path, how.time))
 

@@ -33,11 +33,16 @@ MAX_ENVS, MAX_NUMBERS = 2048, 1 << 26
 MAX_STEPS = 20_000_000
 #: Of the time between samples, how exactly a log tells which came first, a sample or a command.
 CLOCK = 0.1
+#: Of its largest speed, from where on a drive counts as held back by it.
+NEAR_LIMIT = 0.9
 #: Below so many environments threads cost more than they save.
 FEW_ENVS = 64
 #: Lengths of windows [s]. Each begins with an error of the state, from which drives bring a joint
 #: back, while under efforts alone it grows.
 WINDOW, OPEN_WINDOW = 4.0, 0.5
+#: Time constants until what a window begins with is forgotten, and the part of it that is at most
+#: left out for that.
+FORGOTTEN, MOST_LEFT_OUT = 4.0, 0.25
 #: The integrator of highest order of an engine, where it can be chosen.
 INTEGRATORS = {"mujoco": "rk4"}
 #: What is compared, in this order.
@@ -96,8 +101,9 @@ def joined_logs(logs: Sequence[Log]) -> tuple[Log, tuple[int, ...]]:
 
 
 def initial_states(log: Log, at: npt.NDArray[np.int64], half: float = 0.025) -> tuple[Array, Array]:
-    """Positions and velocities at samples, each shape (W, N): those of a parabola through the
-    positions around, so that noise of single samples does not become speed. `half` [s]."""
+    """Positions and velocities at samples, each shape (W, N): those of a cubic, or where the log
+    begins or ends of a parabola, through the positions around, so that noise of single samples does
+    not become speed. `half` [s]."""
     assert log.position is not None
     positions = np.empty((len(at), len(log.joints)))
     velocities = np.zeros_like(positions)
@@ -108,7 +114,8 @@ def initial_states(log: Log, at: npt.NDArray[np.int64], half: float = 0.025) -> 
         for column in range(len(log.joints)):
             values = log.position[near, column]
             good = np.isfinite(values)
-            degree = min(2, int(good.sum()) - 1)
+            both = min(int((good & (own < 0)).sum()), int((good & (own > 0)).sum())) > 2
+            degree = min(3 if both else 2, int(good.sum()) - 1)
             if degree < 1:
                 positions[row, column] = np.nan if degree < 0 else values[good][0]
                 continue
@@ -165,6 +172,9 @@ class Model:
         if log.position is None:
             raise InvalidError("the log has no positions of joints")
         self.log = log
+        self._given: dict[str, Any] = {"engine": engine, "window": window, "threads": threads,
+                                       "parts": parts, **options}
+        self._asset = asset
         self._reads_efforts = False
         world = World(asset, engine, 1, threads=1, time_step=step, **options)
         self.engine, self.step = world.engine, world.time_step
@@ -192,6 +202,10 @@ class Model:
         self._samples()
 
     # ---- what there is
+
+    def finer(self, times: int = 2) -> Model:
+        """The same with a time step so many times smaller. Raises what the class does."""
+        return Model(self._asset, self.log, step=self.step / times, **self._given)
 
     def world(self, envs: int) -> World:
         """A world of so many environments, made once."""
@@ -269,6 +283,9 @@ class Model:
         self._places["velocity"] = self._places["position"]
         # The mean effort of a step is that of its middle.
         self._places["effort"] = _neighbours(np.clip(place + 0.5, 1, self.steps), self.steps - 1)
+        assert log.position is not None
+        speeds = np.abs(np.gradient(log.position, log.times, axis=0)
+                        if log.velocity is None else log.velocity)
         #: (W, samples, N) for each channel that is compared; NaN where there is nothing.
         self.measured: dict[str, Array] = {}
         for name in CHANNELS:
@@ -276,30 +293,56 @@ class Model:
             if values is None:
                 continue
             taken = values[self.at].copy()
-            taken[:, 0] = np.nan  # the state at the start is the log's
+            # The state at the start is the log's, with its error.
+            taken[:, :1 + int(self._memory() / max(log.step, 1e-9))] = np.nan
             for column in range(len(log.joints)):
                 if name == "effort" and (column not in self._driven or any(
                         each[0] == column for each in self._pushed)):
                     taken[:, :, column] = np.nan
+                elif name == "effort":
+                    # What holds a drive back at its largest speed is not in its law.
+                    most = NEAR_LIMIT * largest_speed(self.plant.joints[log.joints[column]])
+                    taken[..., column][speeds[self.at][..., column] > most] = np.nan
             if np.isfinite(taken).any():
                 self.measured[name] = taken
 
+    def _memory(self) -> float:
+        """How long an error of the state at the start of a window counts [s]: drives bring joints
+        back, the slowest of them last."""
+        longest = 0.0
+        for column, _, place, _ in self._aimed:
+            joint = self.log.joints[column]
+            drive, inertia = self.plant.drives[joint], self.plant.inertia.get(joint, 0.0)
+            if place is None or drive.type or drive.stiffness <= 0:
+                continue
+            damping = drive.damping + self.plant.joints[joint].damping
+            root = damping ** 2 - 4 * inertia * drive.stiffness
+            constant = 2 * inertia / damping if root <= 0 < damping else (
+                (damping + math.sqrt(max(root, 0.0))) / (2 * drive.stiffness))
+            longest = max(longest, constant)
+        return min(FORGOTTEN * longest,
+                   MOST_LEFT_OUT * self.windows.samples * self.log.step)
+
     # ---- simulation
 
-    def predict(self, parameters: list[Parameter], sets: Array) -> dict[str, Array]:
+    def predict(self, parameters: list[Parameter], sets: Array, clock: Array | None = None
+                ) -> dict[str, Array]:
         """What the joints do: `sets` (S, P) -> for each channel of `measured` an array (S, W,
-        samples, N); NaN where the simulation became unstable."""
+        samples, N); NaN where the simulation became unstable. Efforts at a sample are those of the
+        command that counts there by the delays of `clock` (S, P); None: of `sets`."""
         sets = np.atleast_2d(sets)
+        clock = sets if clock is None else clock
         wide = len(self.windows)
         numbers = self.steps * wide * len(self.log.joints) * 3
         together = max(1, min(len(sets), MAX_ENVS // max(wide, 1), MAX_NUMBERS // max(numbers, 1)))
         parts = []
         for begin in range(0, len(sets), together):
-            chunk = sets[begin:begin + together]
-            rows = len(chunk)
+            chunk = np.stack([each[begin:begin + together] for each in (sets, clock)])
+            rows = chunk.shape[1]
             if rows < together:  # worlds are made once
-                chunk = np.concatenate([chunk, np.repeat(chunk[-1:], together - rows, axis=0)])
-            made = self._run(parameters, chunk)
+                chunk = np.concatenate(
+                    [chunk, np.repeat(chunk[:, -1:], together - rows, axis=1)], axis=1)
+            made = self._run(parameters, chunk[0], chunk[1])
             parts.append({name: values[:rows] for name, values in made.items()})
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
@@ -319,8 +362,9 @@ class Model:
     def _set(self, world: World, parameter: Parameter, values: Array) -> None:
         name = FAMILIES[parameter.family].sets
         if name:
-            for path in parameter.paths:
-                world.set_parameter(name, path, values)
+            for path, share in parameter.parts:
+                if share:  # of a sum; the others stay 0, which not every engine can set
+                    world.set_parameter(name, path, share * values)
 
     def _special(self, parameters: list[Parameter], sets: Array, family: str,
                  rest: float) -> Array:
@@ -332,7 +376,7 @@ class Model:
                     made[:, self.log.joints.index(path)] = sets[:, at]
         return made
 
-    def _run(self, parameters: list[Parameter], sets: Array) -> dict[str, Array]:
+    def _run(self, parameters: list[Parameter], sets: Array, clock: Array) -> dict[str, Array]:
         wide, count = len(self.windows), len(sets)
         world = self.world(count * wide)
         world.reset()
@@ -356,16 +400,16 @@ class Model:
         for name, values in states.items():
             made[name] = self._sampled(values, count, self._places[name])
         if "effort" in made:
-            self._lawful_efforts(world, parameters, sets, offsets, made)
+            delays = self._special(parameters, clock, "delay", 0.0)
+            self._lawful_efforts(world, parameters, sets, offsets, delays, made)
             made["effort"] *= scales[:, None, None, :]
         made["position"] += offsets[:, None, None, :]
         return {name: made[name] for name in self.measured}
 
     def _lawful_efforts(self, world: World, parameters: list[Parameter], sets: Array,
-                        offsets: Array, made: dict[str, Array]) -> None:
+                        offsets: Array, delays: Array, made: dict[str, Array]) -> None:
         """What drives exert at the moment of each sample, by their law: what an engine tells is
         the mean of a step, in which the command may have changed."""
-        delays = self._special(parameters, sets, "delay", 0.0)
         aims = {column: (position, velocity) for column, _, position, velocity in self._aimed}
         for column, drive in self._driven.items():
             law = self.plant.drives[self.log.joints[column]]
@@ -385,11 +429,12 @@ class Model:
                 force = (stiffness * (place - made["position"][..., column])
                          + damping * (speed - made["velocity"][..., column]))
                 forces.append(np.clip(force, -most, most))
-            # Where the command changes right at a sample either may have been measured.
+            # Where commands change right at the samples either may have been measured: the same one
+            # all over a window, for the nearer one of each sample would make up for wrong numbers.
             scale = self._special(parameters, sets, "effortScale", 1.0)[:, column, None, None]
             real = self.measured["effort"][None, :, :, column] / scale
-            made["effort"][..., column] = np.where(
-                np.abs(forces[1] - real) < np.abs(forces[0] - real), forces[1], forces[0])
+            apart = [np.nansum(np.abs(force - real), axis=2, keepdims=True) for force in forces]
+            made["effort"][..., column] = np.where(apart[1] < apart[0], forces[1], forces[0])
 
     def _now(self, held: Held, delays: Array) -> Array:
         """A command at the samples: (S, W, samples)."""
@@ -491,10 +536,16 @@ class Model:
 
 
 def is_plain(drive: Any) -> bool:
-    """Whether a drive exerts what its gains say, up to its maxForce, whatever it has to move and
-    however fast it is."""
-    return (not drive.type and drive.speed_effort_gradient == 0
-            and not (drive.max_velocity is not None and drive.max_velocity < 1e6))
+    """Whether a drive exerts what its gains say, up to its maxForce, whatever it has to move and,
+    below its largest speed, however fast it is."""
+    return not drive.type and drive.speed_effort_gradient == 0
+
+
+def largest_speed(joint: Any) -> float:
+    """Of a joint with its drive [rad/s or m/s]; infinite where nothing limits it."""
+    limits = [joint.velocity_limit, *(drive.max_velocity for drive in joint.drives[:1])]
+    return min((float(limit) for limit in limits if limit is not None and 0 < limit < 1e6),
+               default=math.inf)
 
 
 def _neighbours(place: Array, last: int) -> Places:

@@ -164,8 +164,8 @@ def make_overlay(asset: str, output: str, parameters: Sequence[Parameter], value
     stage = open_stage(asset)
     units = _Units(_number(stage.metadata("metersPerUnit"), 0.01),
                    _number(stage.metadata("kilogramsPerUnit"), 1.0))
-    wanted = {(each.family, path): float(value) for each, value in zip(parameters, values)
-              for path in each.paths}
+    wanted = {(each.family, path): share * float(value)
+              for each, value in zip(parameters, values) for path, share in each.parts}
     left = [(each, NOT_WRITTEN[each.family]) for each in parameters if each.family in NOT_WRITTEN]
     opinions: dict[tuple[str, str], Opinion] = {}
 

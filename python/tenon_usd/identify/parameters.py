@@ -11,15 +11,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
-import tomllib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from .._lists import no_such
-from .._toml import Fault, FileError, Reader, is_number, rows_of
+from .._toml import FileError, Reader, is_number, read_toml, rows_of
 from ..actuators import fitting
 from ..errors import InvalidError, NotFoundError
 from ..world import World
@@ -91,6 +89,12 @@ class Row:
     deviation: float | None = None
     tied: bool | None = None
     line: int = 0
+    file: str = dataclasses.field(default="", compare=False)
+
+    @property
+    def place(self) -> str:
+        """"parameters.toml:3: " for messages; empty where it is of no file."""
+        return f"{self.file}:{self.line}: " if self.file else ""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,12 +112,25 @@ class Parameter:
     """What counts as a large change of it."""
     prior: float | None = None
     deviation: float | None = None
+    weights: tuple[float, ...] = ()
+    """Of a sum (summed()): how much the number of each path counts in it, the first one 1."""
+    shares: tuple[float, ...] = ()
+    """Of a sum: which part of it each path gets; empty: every path has the number itself."""
 
     @property
     def name(self) -> str:
-        """"friction:/arm/elbow"."""
+        """"friction:/arm/elbow", of a sum "friction:/hand/index_1 + 1.1 index_2"."""
+        if self.weights:
+            return f"{self.family}:{self.paths[0]}" + "".join(
+                f" + {weight:.4g} {path.rpartition('/')[2]}"
+                for path, weight in zip(self.paths[1:], self.weights[1:]))
         more = f" (+{len(self.paths) - 1})" if len(self.paths) > 1 else ""
         return f"{self.family}:{self.paths[0]}{more}"
+
+    @property
+    def parts(self) -> list[tuple[str, float]]:
+        """Each path, and what its number is of this one."""
+        return list(zip(self.paths, self.shares or (1.0,) * len(self.paths)))
 
     @property
     def unit(self) -> str:
@@ -178,21 +195,15 @@ _KEYS = ("family", "joints", "low", "high", "start", "prior", "deviation", "tied
 
 def rows_from_file(path: str) -> list[Row]:
     """The tables [[parameter]] of a TOML file. Errors: ParametersError, with lines; OSError."""
-    if os.stat(path).st_size > MAX_FILE_BYTES:
-        raise ParametersError(path, [Fault("", 0, f"is larger than {MAX_FILE_BYTES} bytes")])
-    with open(path, "rb") as file:
-        contents = file.read()
-    try:
-        text = contents.decode()
-        table = tomllib.loads(text)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ParametersError(path, [Fault("", 0, str(error))]) from error
+    text, table = read_toml(path, MAX_FILE_BYTES, ParametersError)
     reader = Reader(text)
     reader.unknown(table, ("parameter",))
     rows: list[Row] = []
     for number, each in enumerate(rows_of(reader, table, "parameter"), 1):
         reader.at("parameter", number)
-        rows += _file_row(reader, dict(each))
+        rows += [dataclasses.replace(row, file=path) for row in _file_row(reader, dict(each))]
+    if not rows and not reader.faults:
+        reader.fault("there is no table [[parameter]]")
     if reader.faults:
         raise ParametersError(path, reader.faults)
     return rows
@@ -222,8 +233,8 @@ def _file_row(reader: Reader, table: dict[str, Any]) -> list[Row]:
     elif deviation is not None and deviation < 0:
         reader.fault("a deviation is not below 0", "deviation")
     try:
-        return [Row(family, pattern, **values, tied=tied, line=reader.line)
-                for family in _families(name)]
+        return [Row(family, pattern, low, high, values["start"], values["prior"], deviation, tied,
+                    reader.line) for family in _families(name)]
     except NotFoundError as error:
         reader.fault(str(error), "family")
         return []
@@ -242,6 +253,9 @@ class Plant:
     colliders: dict[str, float]
     inertia: dict[str, float]
     """What a joint has to accelerate [kg m^2 or kg]."""
+    followers: dict[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
+    """Joints that follow another by a linear mimic law: the one that leads the whole chain, and
+    the turn of the follower by a turn of that one [its unit by that of the leader]."""
 
 
 def plant_of(world: World, inertia: dict[str, float]) -> Plant:
@@ -255,7 +269,22 @@ def plant_of(world: World, inertia: dict[str, float]) -> Plant:
             collider.material]
         colliders[str(collider.path)] = float(material.dynamic_friction)
     bodies = {body.path: body for body in scene.bodies if not body.kinematic and body.mass > 0}
-    return Plant(joints, drives, bodies, colliders, inertia)
+    return Plant(joints, drives, bodies, colliders, inertia, _followers(scene, joints))
+
+
+def _followers(scene: Any, joints: dict[str, Any]) -> dict[str, tuple[str, float]]:
+    laws = {path: joint.mimics[0] for path, joint in joints.items()
+            if len(joint.mimics) == 1 and not np.any(joint.mimics[0].higher)}
+    made = {}
+    for path in laws:
+        leader, ratio = path, 1.0
+        for _ in laws:  # a circle of leaders ends, too
+            if leader in laws:
+                ratio *= float(laws[leader].multiplier)
+                leader = scene.joints[laws[leader].leader].path
+        if leader in joints and leader not in laws and ratio:
+            made[path] = (leader, ratio)
+    return made
 
 
 def _names(plant: Plant, log: Log, of: str) -> list[str]:
@@ -317,9 +346,10 @@ def _size(values: Any, column: int) -> float:
     return float(np.std(own)) if own.size else 0.0
 
 
-def select(rows: Iterable[Row], plant: Plant, log: Log) -> list[Parameter]:
+def select(rows: Iterable[Row], plant: Plant, log: Log, sums: bool = True) -> list[Parameter]:
     """The parameters that rows mean, in their order; of one that several rows name the last says
-    bounds and prior. Raises NotFoundError for patterns that mean nothing, InvalidError."""
+    bounds and prior. `sums`: those of joints that move together are one (summed()). Raises
+    NotFoundError for patterns that mean nothing, InvalidError."""
     found: dict[tuple[str, tuple[str, ...]], Parameter] = {}
     for row in rows:
         family = FAMILIES[row.family]
@@ -327,10 +357,10 @@ def select(rows: Iterable[Row], plant: Plant, log: Log) -> list[Parameter]:
         try:
             paths = [names[i] for i in fitting(row.pattern, names)] if names else []
         except NotFoundError as error:
-            raise NotFoundError(f"{row.family}: {error}") from None
+            raise NotFoundError(f"{row.place}{row.family}: {error}") from None
         if not paths:
-            raise NotFoundError(f"{row.family}: the asset has no {family.of} of the log's joints "
-                                "that has it")
+            raise NotFoundError(f"{row.place}{row.family}: the asset has no {family.of} of the "
+                                "log's joints that has it")
         tied = row.tied if row.tied is not None else row.family == "delay"
         for group in [tuple(paths)] if tied else [(path,) for path in paths]:
             key = (row.family, group)
@@ -338,7 +368,53 @@ def select(rows: Iterable[Row], plant: Plant, log: Log) -> list[Parameter]:
     if len(found) > MAX_PARAMETERS:
         raise InvalidError(f"{len(found)} parameters; at most {MAX_PARAMETERS} are identified "
                            "together: name fewer joints")
-    return list(found.values())
+    made = list(found.values())
+    return summed(made, plant) if sums else made
+
+
+#: What of a joint that follows acts on its leader: by the ratio of the mimic law to this power.
+POWERS = {"friction": 1, "damping": 2, "armature": 2}
+
+
+def summed(parameters: Sequence[Parameter], plant: Plant) -> list[Parameter]:
+    """The same with one parameter, their sum, in place of those that no motion tells apart:
+    friction, damping and armature of a joint and of its followers. What a prior is about stays
+    for itself."""
+    groups: dict[tuple[str, str], list[tuple[float, Parameter]]] = {}
+    for each in parameters:
+        if each.family in POWERS and len(each.paths) == 1 and each.prior is None:
+            leader, ratio = plant.followers.get(each.paths[0], (each.paths[0], 1.0))
+            groups.setdefault((each.family, leader), []).append(
+                (abs(ratio) ** POWERS[each.family], each))
+    sums = {}
+    for (_, leader), members in groups.items():
+        if len(members) > 1:
+            members.sort(key=lambda member: member[1].paths[0] != leader)
+            sums.update({(each.family, each.paths): members for _, each in members})
+    made: list[Parameter] = []
+    for each in parameters:
+        group = sums.get((each.family, each.paths))
+        if group is None:
+            made.append(each)
+        elif each is next(other for other in parameters if any(other is m for _, m in group)):
+            made.append(_sum(group))
+    return made
+
+
+def _sum(members: Sequence[tuple[float, Parameter]]) -> Parameter:
+    """Each part keeps its share of what the asset has; all are the same where that is 0."""
+    first = members[0][0]
+    weights = [weight / first for weight, _ in members]
+    own = [each for _, each in members]
+
+    def total(name: str) -> float:
+        return float(sum(w * getattr(each, name) for w, each in zip(weights, own)))
+
+    nominal = total("nominal")
+    shares = [each.nominal / nominal if nominal > 0 else 1 / sum(weights) for each in own]
+    return Parameter(own[0].family, tuple(each.paths[0] for each in own), nominal, total("start"),
+                     total("low"), total("high"), max(nominal, own[0].scale),
+                     weights=tuple(weights), shares=tuple(shares))
 
 
 def _parameter(row: Row, paths: tuple[str, ...], plant: Plant, log: Log,
@@ -354,7 +430,7 @@ def _parameter(row: Row, paths: tuple[str, ...], plant: Plant, log: Log,
     if not math.isfinite(start):
         start = scale
     if low < family.low or high > family.high:
-        raise InvalidError(f"{row.family} of {paths[0]}: bounds are within {family.low:g} and "
-                           f"{family.high:g} {family.unit}")
+        raise InvalidError(f"{row.place}{row.family} of {paths[0]}: bounds are within "
+                           f"{family.low:g} and {family.high:g} {family.unit}")
     start = min(max(start, low), high)
     return Parameter(row.family, paths, nominal, start, low, high, scale, prior, deviation)

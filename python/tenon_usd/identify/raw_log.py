@@ -26,6 +26,8 @@ TIME_UNITS = {"s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns"
 CLOCK_SECONDS = 1e6
 #: A gap is a time between samples that is so many times the usual one.
 GAP = 5.0
+#: Times that are nearer to each other [s] are in another unit.
+LEAST_STEP = 1e-6
 
 
 @dataclasses.dataclass
@@ -80,7 +82,8 @@ def listed(names: Iterable[str], most: int = 8) -> str:
     """Names for a message, the first of many."""
     names = list(names)
     rest = f" and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(names[:most]) + rest
+    return ", ".join(name if len(name) <= 80 else name[:80] + "..."
+                     for name in names[:most]) + rest
 
 
 def seconds_of(values: Any, unit: float) -> tuple[Array, float]:
@@ -116,6 +119,9 @@ def check_times(raw: RawLog, allow_gaps: bool, notes: list[Finding]) -> None:
     if wrong.size:
         _refuse_order(raw, int(wrong[0]) + 1)
     usual = float(np.median(steps))
+    if usual < LEAST_STEP:
+        raise raw.refuse("log.time", f"rows are {usual:.3g} s apart", "give times in seconds, or "
+                         "name the unit in the column: time_ms", 1, raw.time_name)
     gaps = np.flatnonzero(steps > GAP * usual)
     if gaps.size:
         at = int(gaps[0])
@@ -148,6 +154,10 @@ def table_of(names: list[str], columns: Mapping[str, Any], source: str, wanted_t
         raise LogError(Finding("log.too-large", f"{len(names)} columns; at most {MAX_COLUMNS}",
                                source, head, "", "leave out what is not of joints"))
     name, unit = time_column(names, wanted_time, source, head)
+    shape, kind = np.shape(columns[name]), np.asarray(columns[name]).dtype
+    if len(shape) != 1 or kind.kind not in "fiub":
+        raise LogError(Finding("log.time", f"is an array of {kind} of the shape {shape}", source,
+                               head, name, "a number for each row"))
     times, origin = seconds_of(columns[name], unit)
     count = len(times)
     numbers = np.arange(1, count + 1, dtype=np.int64) if rows is None else np.asarray(rows)

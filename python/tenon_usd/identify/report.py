@@ -46,7 +46,13 @@ def _unit(parameter: Parameter, sliding: bool = False) -> str:
 
 def _of(parameter: Parameter) -> dict[str, Any]:
     return {"name": parameter.name, "family": parameter.family, "paths": list(parameter.paths),
-            "unit": parameter.unit, "nominal": _plain(parameter.nominal)}
+            "weights": list(parameter.weights), "unit": parameter.unit,
+            "nominal": _plain(parameter.nominal)}
+
+
+#: Said once where there are sums.
+SUMS = ("a sum is one number: no motion tells apart what joints that follow each other by a mimic "
+        "law have of it; a layer shares it out as the asset has it")
 
 
 def check_json(check: Check) -> dict[str, Any]:
@@ -73,7 +79,8 @@ def identified_json(found: Identified) -> dict[str, Any]:
     solution = found.solution
     return {
         "engine": found.engine, "timeStep": found.step, "finished": solution.finished,
-        "simulations": solution.simulations, "check": check_json(found.check),
+        "settled": solution.settled, "simulations": solution.simulations,
+        "check": check_json(found.check),
         "parameters": [{**_of(each), "value": _plain(solution.values[at]),
                         "error": _plain(solution.errors[at]), "low": _plain(solution.low[at]),
                         "high": _plain(solution.high[at])}
@@ -95,7 +102,8 @@ def self_test_json(done: SelfTest) -> dict[str, Any]:
     return {
         "passed": done.passed, "timeStep": done.step, "simulations": done.solution.simulations,
         "scores": [{**_of(each.parameter), "truth": each.truth, "found": each.found,
-                    "error": each.error, "allowed": each.allowed, "passed": each.passed}
+                    "low": each.low, "high": each.high, "error": each.error,
+                    "allowed": each.allowed, "passed": each.passed}
                    for each in done.scores],
         "refused": [each.name for each in done.refused]}
 
@@ -112,10 +120,11 @@ def check_lines(check: Check) -> list[str]:
     rows = [("parameter", "asset", "expected error", "")]
     rows += [(each.name, _short(each.nominal), _short(told.errors[at]),
               "not told" if at in told.refused else "") for at, each in enumerate(check.parameters)]
+    sums = [SUMS] if any(each.weights for each in check.parameters) else []
     values = told.singular_values
     spread = values[0] / values[-1] if values[-1] > 0 else math.inf
     return [*check.quality.text().split("\n"), "", *lined(rows),
-            f"condition {_short(spread)}", *check.reasons]
+            *sums, f"condition {_short(spread)}", *check.reasons]
 
 
 def identified_lines(found: Identified) -> list[str]:
@@ -125,6 +134,9 @@ def identified_lines(found: Identified) -> list[str]:
               f"+- {_short(float(solution.high[at] - solution.values[at]))}", _unit(each))
              for at, each in enumerate(found.parameters)]
     lines = lined(rows)
+    lines += [SUMS] if any(each.weights for each in found.parameters) else []
+    if solution.finished and not solution.settled:
+        lines.append("the fit used up its steps: other numbers may leave less")
     lines += [f"{each.name}: the log does not tell it; it stays {_short(each.nominal)}"
               for each in found.held]
     lines += [f"{each.name}: it ended at its bound" for each in found.at_bounds]
@@ -150,7 +162,9 @@ def self_test_lines(done: SelfTest) -> list[str]:
         rows.append((each.parameter.name, _short(each.truth), _short(each.found),
                      f"{factor * each.error:.2f}{unit}", f"{factor * each.allowed:g}{unit}",
                      "ok" if each.passed else "FAILED"))
-    return [*lined(rows), *(f"{each.name}: the log does not tell it" for each in done.refused)]
+    within = sum(each.low <= each.truth <= each.high for each in done.scores)
+    return [*lined(rows), f"{within} of {len(done.scores)} truths are within the 95 % intervals",
+            *(f"{each.name}: the log does not tell it" for each in done.refused)]
 
 
 # ---- page

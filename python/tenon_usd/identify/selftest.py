@@ -20,8 +20,8 @@ from ..errors import InvalidError
 from ..world import World
 from .identifiable import Identifiability
 from .log import Array, Log
-from .model import INTEGRATORS, Model
-from .parameters import FAMILIES, Parameter, Row, select
+from .model import INTEGRATORS, Model, largest_speed
+from .parameters import FAMILIES, Parameter, Row, select, summed
 from .solve import Shown, Solution, look, solve
 
 #: What is identified where nothing is named.
@@ -30,6 +30,10 @@ DEFAULT_FAMILIES = ("friction", "damping", "armature", "stiffness", "driveDampin
 ALLOWED = {"friction": 0.05, "damping": 0.05, "armature": 0.05, "stiffness": 0.02,
            "driveDamping": 0.02, "delay": 0.5, "mass": 0.05, "maxForce": 0.02,
            "effortScale": 0.02, "offset": 0.05, "contactFriction": 0.1}
+
+
+#: Of their largest speed, how fast commands are; of their size, how small at the smallest.
+MOST_SPEED, LEAST_SIZE = 0.6, 0.3
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,11 +50,14 @@ class Sensors:
 
 @dataclasses.dataclass(frozen=True)
 class Score:
-    """One parameter: the truth, what was found [SI, rad], how far off, and how far it may be."""
+    """One parameter: the truth, what was found with its interval of 95 % [SI, rad], how far off,
+    and how far it may be."""
 
     parameter: Parameter
     truth: float
     found: float
+    low: float
+    high: float
     error: float
     allowed: float
 
@@ -76,9 +83,10 @@ class SelfTest:
         return bool(self.scores) and all(score.passed for score in self.scores)
 
 
-def commands(world: World, seed: int, duration: float, period: float) -> Log:
+def commands(world: World, seed: int, duration: float, period: float, size: float = 1.0) -> Log:
     """Position commands of all drives that hold positions: sums of sines of other phases in each
-    half, with soft steps, within the limits of joints. Raises InvalidError where no drive does."""
+    half, with soft steps, within the limits of joints, of their speeds too; `size` is a part of
+    that. Raises InvalidError where no drive holds a position."""
     random = np.random.default_rng([seed, 1])
     times: Array = np.asarray(np.arange(0, duration + 0.5 * period, period), np.float64)
     scene, names = world.scene, world.drive_names
@@ -91,7 +99,10 @@ def commands(world: World, seed: int, duration: float, period: float) -> Log:
             continue
         low, high = _range(joint, float(start[path]))
         joints.append(path)
-        columns.append(_excited(random, times, low, high, float(start[path])))
+        made = _excited(random, times, low, high, float(start[path])) - start[path]
+        fastest = float(np.abs(np.diff(made)).max()) / period
+        part = size * min(1.0, MOST_SPEED * largest_speed(joint) / max(fastest, 1e-9))
+        columns.append(start[path] + part * made)
     if not joints:
         raise InvalidError("the asset has no drive that holds a position, so that nothing would "
                            "move: give it drives (tenon drives)")
@@ -118,14 +129,14 @@ def _range(joint: Any, start: float) -> tuple[float, float]:
 def _excited(random: np.random.Generator, times: Array, low: float, high: float,
              start: float) -> Array:
     """Sines and soft steps between two bounds, from `start` on."""
-    half = times[-1] / 2
     made = np.zeros_like(times)
-    for begin in (0.0, half):
-        own = (times >= begin) & (times <= begin + half)
+    # From one half into the other within half a second, without a jump.
+    later = 0.5 + 0.5 * np.sin(np.pi * np.clip((times - times[-1] / 2) / 0.5, -0.5, 0.5))
+    for part in (1 - later, later):
         for frequency in np.geomspace(0.15, 2.5, 7):
             phase = random.uniform(0, 2 * np.pi)
-            made[own] += np.sin(2 * np.pi * frequency * random.uniform(0.9, 1.1) * times[own]
-                                + phase) / frequency ** 0.5
+            made += part * np.sin(2 * np.pi * frequency * random.uniform(0.9, 1.1) * times
+                                  + phase) / frequency ** 0.5
     period = random.uniform(1.1, 1.7)
     made += 1.2 * np.tanh(3 * np.sin(2 * np.pi * times / period
                                      + random.uniform(0, 2 * np.pi)))
@@ -134,24 +145,33 @@ def _excited(random: np.random.Generator, times: Array, low: float, high: float,
     return np.asarray(start + soft * (low + made * (high - low) - start))
 
 
-def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, commanded: Log, *,
-              step: float, engine: str | None = None, **options: Any) -> Log:
-    """The log that the asset with these numbers makes, without noise: commands hold until the next
-    one and come late by the delay, in whole steps. It steps on its own, apart from the model of a
-    fit."""
-    name = World(asset, engine, 1, **options).engine
-    options.setdefault("integrator", INTEGRATORS.get(name, ""))
-    world = World(asset, engine, 1, time_step=step, outputs=["efforts"], **options)
+def _give(world: World, parameters: Sequence[Parameter],
+          values: Array) -> tuple[dict[str, float], dict[str, float]]:
+    """Sets what a world has of the numbers. Returns delays and offsets by path."""
     delays, offsets = dict[str, float](), dict[str, float]()
     for parameter, value in zip(parameters, values):
         name = FAMILIES[parameter.family].sets
-        for path in parameter.paths:
+        for path, share in parameter.parts:
             if name:
-                world.set_parameter(name, path, value)
+                world.set_parameter(name, path, share * value)
             elif parameter.family == "delay":
                 delays[path] = value
             elif parameter.family == "offset":
                 offsets[path] = value
+    return delays, offsets
+
+
+def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, commanded: Log, *,
+              step: float, engine: str | None = None, touches: list[float] | None = None,
+              **options: Any) -> Log:
+    """The log that the asset with these numbers makes, without noise: commands hold until the next
+    one and come late by the delay, in whole steps. It steps on its own, apart from the model of a
+    fit. `touches` gets the times at which more touches than in the first step."""
+    name = World(asset, engine, 1, **options).engine
+    options.setdefault("integrator", INTEGRATORS.get(name, ""))
+    world = World(asset, engine, 1, time_step=step, outputs=["efforts"] + (
+        [] if touches is None else ["contacts"]), **options)
+    delays, offsets = _give(world, parameters, values)
     assert commanded.command_position is not None
     joints = list(commanded.joints)
     columns = [world.joint_names.index(joint) for joint in joints]
@@ -162,8 +182,7 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
     now = np.array(world.joint_positions[0])
     place, speed, force = (np.full((len(commanded), len(joints)), np.nan) for _ in range(3))
     place[0], speed[0] = now[columns] + shift, 0.0
-    at = 1
-    steps = round(commanded.duration / step)
+    at, first, steps = 1, 0, round(commanded.duration / step)
     before = np.concatenate([now[columns] + shift, np.zeros(len(joints))])
     for k in range(steps):
         time = k * step
@@ -173,6 +192,11 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
             targets[0, drive] = commanded.command_position[sample, column] - shift[column]
         world.set_drive_targets(targets)
         world.step()
+        if touches is not None:
+            count = int(world.contact_counts[0])
+            first = count if k == 0 else first
+            if count > first:
+                touches.append(time)
         own, rate = world.joints()
         after = np.concatenate([own[0, columns] + shift, rate[0, columns]])
         while at < len(commanded) and commanded.times[at] <= time + step * (1 + 1e-9):
@@ -181,21 +205,26 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
             place[at], speed[at] = mixed[:len(joints)], mixed[len(joints):]
             at += 1
         before = after
-    for column, drive, delay in aimed:
-        late = round(delay / step) * step
-        before_it = np.searchsorted(commanded.times, commanded.times - late - 1e-9) - 1
-        aim = commanded.command_position[np.maximum(before_it, 0), column]
+    for column, _, delay in aimed:
         law = world.scene.joints[world.joint_paths.index(joints[column])].drives[0]
         number = {"stiffness": law.stiffness, "driveDamping": law.damping,
                   "maxForce": law.max_force}
-        number.update({each.family: value for each, value in zip(parameters, values)
-                       if joints[column] in each.paths})
-        force[:, column] = np.clip(
-            number["stiffness"] * (aim - place[:, column])
-            + number["driveDamping"] * (0 - speed[:, column]), -number["maxForce"],
-            number["maxForce"])
+        number |= {each.family: value for each, value in zip(parameters, values)
+                   if joints[column] in each.paths}
+        force[:, column] = _exerted(number, commanded, column, round(delay / step) * step,
+                                    place[:, column], speed[:, column])
     return dataclasses.replace(commanded, position=place, velocity=speed, effort=force,
                                source="self-test")
+
+
+def _exerted(number: dict[str, float], commanded: Log, column: int, late: float, place: Array,
+             speed: Array) -> Array:
+    """What a drive exerts by its law, on commands that are late."""
+    assert commanded.command_position is not None
+    before_it = np.searchsorted(commanded.times, commanded.times - late - 1e-9) - 1
+    aim = commanded.command_position[np.maximum(before_it, 0), column]
+    asked = number["stiffness"] * (aim - place) - number["driveDamping"] * speed
+    return np.asarray(np.clip(asked, -number["maxForce"], number["maxForce"]))
 
 
 def measured(log: Log, sensors: Sensors, seed: int, sliding: Sequence[str] = ()) -> Log:
@@ -214,14 +243,15 @@ def measured(log: Log, sensors: Sensors, seed: int, sliding: Sequence[str] = ())
     return dataclasses.replace(log, position=place, velocity=None, effort=effort)
 
 
-def perturbed(parameters: Sequence[Parameter], seed: int, step: float) -> Array:
-    """Other numbers than the asset's: what it has times 0.6 to 1.6, else a part of the scale."""
+def perturbed(parameters: Sequence[Parameter], seed: int, step: float, finer: int = 1) -> Array:
+    """Other numbers than the asset's: what it has times 0.6 to 1.6, else a part of the scale.
+    Delays are whole steps of the log, `finer` in one of the model."""
     random = np.random.default_rng([seed, 3])
     made = np.empty(len(parameters))
     for at, parameter in enumerate(parameters):
         part = random.uniform(0.6, 1.6)
         if parameter.family == "delay":
-            made[at] = 6 * step * part
+            made[at] = round(6 * part * finer) * step / finer
         elif parameter.family == "offset":
             made[at] = parameter.scale * (part - 1)
         elif parameter.nominal > 0 and math.isfinite(parameter.nominal):
@@ -241,15 +271,20 @@ def self_test(asset: Any, rows: Sequence[Row] = (), *, engine: str | None = None
     sensors = sensors or Sensors()
     world = World(asset, engine, 1, time_step=step, **options)
     step = world.time_step
-    commanded = commands(world, seed, duration, sensors.period)
-    plain = simulated(asset, [], np.zeros(0), commanded, step=step, engine=engine, **options)
+    commanded, plain = _clear(asset, world, seed, duration, sensors.period, engine, options)
     about = Model(asset, plain, engine=engine, step=step, window=duration, threads=threads,
                   **options)
-    parameters = select(rows or [Row(family) for family in DEFAULT_FAMILIES], about.plant, plain)
-    truth = perturbed(parameters, seed, step)
+    single = select(rows or [Row(family) for family in DEFAULT_FAMILIES], about.plant, plain,
+                    sums=False)
+    real = perturbed(single, seed, step, finer)
     sliding = [joint.path for joint in world.scene.joints if joint.type == "prismatic"]
-    log = measured(simulated(asset, parameters, truth, commanded, step=step / finer, engine=engine,
+    log = measured(simulated(asset, single, real, commanded, step=step / finer, engine=engine,
                              **options), sensors, seed, sliding)
+    parameters = summed(single, about.plant)
+    known = {(each.family, path): value for each, value in zip(single, real)
+             for path in each.paths}
+    truth = np.array([sum(weight * known[each.family, path] for path, weight in
+                          zip(each.paths, each.weights or (1.0,))) for each in parameters])
     model = Model(asset, log, engine=engine, step=step, window=window, threads=threads, **options)
     told = look(model, parameters)
     refused = tuple(parameters[i] for i in told.refused)
@@ -260,12 +295,28 @@ def self_test(asset: Any, rows: Sequence[Row] = (), *, engine: str | None = None
     scores = []
     for at, (parameter, real) in enumerate(zip(parameters, truth)):
         if at not in told.refused:
-            scores.append(_score(parameter, float(real), float(solution.values[at]), step))
+            scores.append(_score(parameter, float(real), solution, at, step))
     return SelfTest(tuple(scores), refused, told, solution, log, step)
 
 
-def _score(parameter: Parameter, truth: float, found: float, step: float) -> Score:
+def _clear(asset: Any, world: World, seed: int, duration: float, period: float,
+           engine: str | None, options: dict[str, Any]) -> tuple[Log, Log]:
+    """Commands, and what the asset does with them: smaller ones until nothing touches that does
+    not at the start. What touches moves otherwise at every time step."""
+    size = 1.0
+    while True:
+        touches: list[float] = []
+        commanded = commands(world, seed, duration, period, size)
+        plain = simulated(asset, [], np.zeros(0), commanded, step=world.time_step, engine=engine,
+                          touches=touches, **options)
+        if not touches or size < LEAST_SIZE:
+            return commanded, plain
+        size *= 0.8
+
+
+def _score(parameter: Parameter, truth: float, solution: Solution, at: int, step: float) -> Score:
+    found, low, high = (float(each[at]) for each in (solution.values, solution.low, solution.high))
     apart = abs(found - truth)
     whole = step if parameter.family == "delay" else (
         parameter.scale if parameter.family == "offset" else abs(truth))
-    return Score(parameter, truth, found, apart / whole, ALLOWED[parameter.family])
+    return Score(parameter, truth, found, low, high, apart / whole, ALLOWED[parameter.family])

@@ -19,10 +19,12 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import Error, InvalidError, check_file
 from ..sweep.cases import ExtraMissing
 from ..sweep.chunks import write_whole
-from .identifiable import (Identifiability, judge, prior_rows, residuals, scales_of, sensitivity,
-                           weights_of)
+from .identifiable import (Identifiability, judge, moments_of, prior_rows, residuals, scales_of,
+                           sensitivity, weights_of)
+from .intervals import sum_deviation
 from .linear import linear_start, scipy
 from .log import Array
 from .model import Model
@@ -30,6 +32,10 @@ from .parameters import Parameter
 
 SOLVERS = ("gauss-newton", "cma")
 ROUNDS = 3
+#: Steps of a round at most; factors of the damping that each of them tries.
+STEPS = 30
+DAMPINGS = (1e-3, 1.0, 1e2, 1e4)
+MOST_DAMPING = 1e6
 #: Differences of more deviations count less: where commands jump, moments of the clock decide.
 OUTLIER = 3.0
 #: Delays that are tried around the last one.
@@ -51,6 +57,8 @@ class Solution:
     cost: float
     simulations: int
     finished: bool
+    settled: bool = True
+    """More steps would not have found less; False where they were used up."""
 
     @property
     def low(self) -> Array:
@@ -87,16 +95,19 @@ class State:
         self.path, self.digest = path, digest
 
     def read(self, count: int) -> tuple[int, Array] | None:
-        """The round and the values; None where there are none of this digest."""
-        if not self.path:
+        """The round and the values; None where there are none of this digest. Raises InvalidError
+        for a file that is no state, which would be written over; OSError."""
+        if not self.path or not os.path.exists(self.path):
             return None
         try:
+            check_file(self.path)
             with open(self.path, encoding="utf-8") as file:
                 note = json.load(file)
             values = np.array(note["values"], dtype=np.float64)
             round_ = int(note["round"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return None
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
+            raise InvalidError(f"{self.path} is there and is no state that --state wrote: name "
+                               "another file") from None
         good = (note.get("digest") == self.digest and values.shape == (count,)
                 and np.isfinite(values).all() and 0 <= round_ < ROUNDS)
         return (round_, values) if good else None
@@ -120,6 +131,11 @@ def cost_of(apart: Array) -> float:
     return float(OUTLIER ** 2 * (np.sqrt(1 + square) - 1).sum())
 
 
+def slopes_of(apart: Array) -> Array:
+    """Roots of the weights with which squares of residuals have the derivatives of cost_of()."""
+    return np.asarray((1 + (apart / OUTLIER) ** 2) ** -0.25)
+
+
 class _Fit:
     """One fit: residuals of a model as functions of parameters by their scales."""
 
@@ -130,7 +146,9 @@ class _Fit:
         self.weights = weights_of(model)
         self.simulations = 0
         self.round = 0
+        self.settled = True
         self.best: tuple[float, Array] | None = None
+        self._slopes: tuple[Array, Array, Array] | None = None
         self.state = State("", "")
 
     def clipped(self, values: Array) -> Array:
@@ -153,22 +171,47 @@ class _Fit:
             self.state.write(self.round, values)
         self.shown(f"round {self.round + 1} of {ROUNDS}", self.simulations, self.best[0])
 
-    def derivatives(self, values: Array) -> Array:
-        _, own = sensitivity(self.model, self.parameters, values, self.weights)
+    def derivatives(self, values: Array) -> tuple[Array, Array]:
+        """Residuals and their derivatives, those of priors behind the others."""
+        apart, own = sensitivity(self.model, self.parameters, values, self.weights)
         self.simulations += len(values) + 1
-        return np.concatenate([own, prior_rows(self.parameters, values)[1]])
+        priors = prior_rows(self.parameters, values)
+        return np.concatenate([apart, priors[0]]), np.concatenate([own, priors[1]])
 
-    def scan_delays(self, values: Array) -> Array:
-        """The delays around that leave least, with all else as it is: where commands hold, what is
-        left jumps with a delay, so that no slope leads there."""
+    def scan_delays(self, optimize: Any, values: Array) -> Array:
+        """The delays around that leave least, with all else as it is and with what would suit each
+        of them best: where commands hold, what is left jumps with a delay, so that no slope leads
+        there, and damping makes up for most of a delay that is wrong."""
         reach = 1.5 * max(self.model.step, self.model.log.step)
         for at, parameter in enumerate(self.parameters):
-            if parameter.family == "delay":
-                sets = np.repeat(values[None], SCANNED, axis=0)
-                sets[:, at] += np.linspace(-reach, reach, SCANNED)
-                sets = self.clipped(sets)
-                values = sets[int(np.argmin([cost_of(row) for row in self.apart(sets)]))]
+            if parameter.family != "delay":
+                continue
+            sets = np.repeat(values[None], SCANNED, axis=0)
+            sets[:, at] += np.linspace(-reach, reach, SCANNED)
+            sets = self.clipped(sets)
+            suited = [self._suited(optimize, values, own[at], at) for own in sets]
+            sets = np.concatenate([sets, suited])
+            values = sets[int(np.argmin([cost_of(row) for row in self.apart(sets)]))]
         return values
+
+    def _suited(self, optimize: Any, values: Array, delay: float, at: int) -> Array:
+        """The values that the slopes say to go best with a delay."""
+        if self._slopes is None or self._slopes[0] is not values:
+            self._slopes = (values, *self.derivatives(values))
+        _, apart, jacobian = self._slopes
+        others = np.arange(len(values)) != at
+        apart = apart + jacobian[:, at] * (delay - values[at])
+        weights = slopes_of(apart)
+        scales = scales_of(self.parameters, values)[others]
+        own = jacobian[:, others] * scales * weights[:, None]
+        low, high = ((bound[others] - values[others]) / scales for bound in (self.low, self.high))
+        made = values.copy()
+        made[at] = delay
+        if others.any():
+            _, triangle = np.linalg.qr(own)
+            made[others] += scales * _step(optimize, triangle, -own.T @ (weights * apart), 1e-6,
+                                           low, high)
+        return self.clipped(made)
 
     def reweigh(self, values: Array) -> None:
         """Weights that make what is left of every channel and joint 1."""
@@ -183,29 +226,6 @@ class _Fit:
             # Of efforts some are known within bounds alone, where a command changes.
             least = (0.5 if name == "effort" else 1e-3) / noise[name]
             self.weights[name] = 1.0 / np.maximum(left, np.nan_to_num(least, nan=1.0))
-
-    def inflation(self, values: Array) -> float:
-        """How many neighbouring residuals say the same thing: 1 + 2 sum of autocorrelations up to
-        the first that is not above 0, the mean of all joints and channels."""
-        found = []
-        for name, predicted in self.model.predict(self.parameters, values[None]).items():
-            apart = predicted[0] - self.model.measured[name]
-            for column in range(apart.shape[-1]):
-                for row in apart[:, 1:, column]:
-                    found.append(_persistence(row[np.isfinite(row)]))
-        return max(1.0, float(np.mean(found))) if found else 1.0
-
-
-def _persistence(values: Array) -> float:
-    if values.size < 8 or float(np.var(values)) == 0:
-        return 1.0
-    own = values - values.mean()
-    whole = np.fft.rfft(own, 2 * own.size)
-    correlation = np.fft.irfft(np.abs(whole) ** 2)[:own.size]
-    correlation /= correlation[0]
-    negative = np.flatnonzero(correlation <= 0)
-    end = int(negative[0]) if negative.size else own.size
-    return float(1 + 2 * correlation[1:end].sum())
 
 
 def look(model: Model, parameters: list[Parameter]) -> Identifiability:
@@ -227,14 +247,14 @@ def solve(model: Model, parameters: list[Parameter], *, solver: str = "gauss-new
     fit = _Fit(model, parameters, shown or (lambda *_: None))
     fit.state = State(state, digest_of(model, parameters, solver, seed))
     known = fit.state.read(len(parameters))
-    start, values = known if known else (0, fit.clipped(linear_start(model, parameters)))
+    first = fit.clipped(linear_start(model, parameters))
+    start, values = known if known else (0, first)
     finished = True
     try:
-        if start > 0:
-            fit.reweigh(values)
+        fit.reweigh(values if start else first)
         for fit.round in range(start, ROUNDS):
             fit.best = None
-            values = fit.scan_delays(values)
+            values = fit.scan_delays(optimize, values)
             if solver == "cma":
                 values = _by_cma(fit, values, seed + fit.round)
             else:
@@ -246,26 +266,103 @@ def solve(model: Model, parameters: list[Parameter], *, solver: str = "gauss-new
         if fit.best is not None:
             values = fit.best[1]
         fit.reweigh(values)
-    cost = cost_of(fit.apart(values)[0])
-    _, jacobian = sensitivity(model, parameters, values, fit.weights)
-    told = judge(parameters, jacobian, values, fit.inflation(values))
+    apart, jacobian = fit.derivatives(values)
+    told = judge(parameters, jacobian[:len(jacobian) - len(prior_rows(parameters, values)[0])],
+                 values)
+    errors = np.hypot(np.maximum(told.errors, _deviations(fit, apart, jacobian)),
+                      _of_time_step(fit, values, jacobian) if finished else 0.0)
     if finished:
         fit.state.remove()
-    return Solution(values, told.errors, told, cost, fit.simulations, finished)
+    return Solution(values, errors, dataclasses.replace(told, errors=errors), cost_of(apart),
+                    fit.simulations, finished, fit.settled and finished)
+
+
+def _deviations(fit: _Fit, apart: Array, jacobian: Array) -> Array:
+    """Standard errors of the parameters with what neighbouring residuals share."""
+    weights = slopes_of(apart)
+    inverse = _inverse(jacobian * weights[:, None])
+    moves = (jacobian * (weights ** 2 * apart)[:, None]) @ inverse
+    times, signals = moments_of(fit.model)
+
+    def squares(own: Array) -> Array:
+        series = np.zeros((int(times.max()) + 1, moves.shape[1]))
+        np.add.at(series, times[own], moves[:len(times)][own])
+        return np.asarray(np.array([sum_deviation(column) for column in series.T]) ** 2)
+
+    # Signals may share what the model lacks, and each has a memory of its own: whatever is more.
+    together = squares(np.ones(len(times), dtype=bool))
+    alone = sum((squares(signals == each) for each in np.unique(signals)), np.zeros_like(together))
+    # A prior is one number with a deviation of its own.
+    known = (jacobian[len(times):] @ inverse) ** 2
+    return np.asarray(np.sqrt(np.maximum(together, alone) + known.sum(axis=0)))
+
+
+def _of_time_step(fit: _Fit, values: Array, jacobian: Array) -> Array:
+    """By how much numbers are off because the model takes steps of time: half of the step changes
+    what the joints do by about half of what is wrong with it."""
+    try:
+        finer = fit.model.finer()
+        apart = [residuals(model, model.predict(fit.parameters, values[None]), fit.weights)[0]
+                 for model in (fit.model, finer)]
+    except Error:  # more steps than a run may have
+        return np.zeros(len(values))
+    fit.simulations += 2
+    own = jacobian[:len(apart[0])] * slopes_of(apart[0])[:, None]
+    change = slopes_of(apart[0]) * np.clip(apart[1] - apart[0], -1e2, 1e2)
+    return np.asarray(2 * np.abs(_inverse(jacobian) @ (own.T @ change)))
+
+
+def _inverse(jacobian: Array) -> Array:
+    """Of J'J, without what nothing tells."""
+    sizes = np.maximum(np.linalg.norm(jacobian, axis=0), 1e-300)
+    scaled = jacobian / sizes
+    return np.asarray(np.linalg.pinv(scaled.T @ scaled, rcond=1e-12, hermitian=True)
+                      / np.outer(sizes, sizes))
 
 
 def _by_newton(optimize: Any, fit: _Fit, values: Array) -> Array:
+    """Steps of Gauss-Newton within the bounds, each with several dampings (Levenberg-Marquardt), of
+    which the one counts that leaves least."""
     scales = scales_of(fit.parameters, values)
     low, high = fit.low / scales, fit.high / scales
-    room = np.where(np.isfinite(low) & np.isfinite(high), high - low, 1.0)
-    inside = np.clip(values / scales, low + 1e-9 * room, high - 1e-9 * room)
-    done = optimize.least_squares(
-        lambda x: fit.apart(x * scales)[0], inside,
-        jac=lambda x: fit.derivatives(x * scales) * scales, bounds=(low, high), method="trf",
-        loss="soft_l1", f_scale=OUTLIER, x_scale="jac", xtol=1e-4, gtol=1e-10, max_nfev=8,
-        ftol=1e-3 if fit.round + 1 < ROUNDS else 1e-4)
-    best = fit.best[1] if fit.best is not None else np.asarray(done.x) * scales
-    return fit.clipped(best)
+    at, damping, small = np.clip(values / scales, low, high), 1e-3, 0
+    enough = 1e-4 if fit.round + 1 == ROUNDS else 1e-3
+    fit.settled = False
+    for _ in range(STEPS):
+        apart, jacobian = fit.derivatives(at * scales)
+        cost = cost_of(apart)
+        weights = slopes_of(apart)
+        _, triangle = np.linalg.qr(jacobian * scales * weights[:, None])
+        wanted = -(jacobian * scales).T @ (weights ** 2 * apart)
+        tried = np.stack([_step(optimize, triangle, wanted, damping * factor, low - at, high - at)
+                          for factor in DAMPINGS])
+        tried = np.clip(at + tried, low, high)
+        costs = [cost_of(row) for row in fit.apart(tried * scales)]
+        best = int(np.argmin(costs))
+        if costs[best] >= cost:
+            if damping >= MOST_DAMPING:
+                fit.settled = True
+                break
+            damping *= 1e3
+            continue
+        at, gain = tried[best], 1 - costs[best] / cost
+        damping = float(np.clip(damping * DAMPINGS[best] ** 0.5, 1e-6, MOST_DAMPING))
+        small = small + 1 if gain < enough else 0
+        if small > (0 if best < 2 else 2):  # with much damping a small gain says little
+            fit.settled = True
+            break
+    return fit.clipped(at * scales)
+
+
+def _step(optimize: Any, triangle: Array, wanted: Array, damping: float, low: Array, high: Array
+          ) -> Array:
+    """The step that leaves least of R'R x = wanted, damped, within bounds."""
+    sizes = np.maximum(np.linalg.norm(triangle, axis=0), 1e-9)
+    _, whole = np.linalg.qr(np.concatenate([triangle, np.sqrt(damping) * np.diag(sizes)]))
+    right = scipy("linalg").solve_triangular(whole, wanted, trans="T")
+    done = optimize.lsq_linear(whole, right, bounds=(np.minimum(low, -1e-12),
+                                                     np.maximum(high, 1e-12)), method="bvls")
+    return np.asarray(done.x)
 
 
 def _by_cma(fit: _Fit, values: Array, seed: int) -> Array:

@@ -25,6 +25,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import check_file
 from .cases import ExtraMissing
 from .plan import Plan
 
@@ -194,10 +195,11 @@ class Results:
                 os.link(part, path)
             os.unlink(part)
         try:
+            check_file(path)
             with open(path, encoding="utf-8") as file:
                 note = json.load(file)
             known, found = note["digest"], note["format"]
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise FolderError(f"{path} is not of a sweep; name another folder with -o") from error
         if known != self.digest:
             raise FolderError(f"{self.folder} holds results of another plan, asset or version "
@@ -236,6 +238,7 @@ class Results:
 
     def _rows_of(self, path: str, cases: range) -> list[Row] | None:
         try:
+            check_file(path)
             with open(path, "rb") as file:
                 rows, digest = self._decode(file.read())
         except ExtraMissing:

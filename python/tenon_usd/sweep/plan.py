@@ -13,11 +13,10 @@ import hashlib
 import json
 import math
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from .._toml import Fault, FileError, Reader, is_number, rows_of
+from .._toml import Fault, FileError, Reader, is_number, read_toml, rows_of
 
 MAX_PLAN_BYTES = 1 << 20
 MAX_CASES = 1_000_000
@@ -148,15 +147,16 @@ def _grid_of(reader: Reader, row: Mapping[str, Any]) -> tuple[Any, ...] | None:
         count = value.get("count")
         if (not is_number(low) or not is_number(high) or isinstance(count, bool)
                 or not isinstance(count, int) or not 1 <= count <= MAX_CASES):
-            reader.fault("a grid has from, to and a count of at least 1")
+            reader.fault(f"a grid has from, to and a count from 1 to {MAX_CASES}")
             return None
         last = max(count - 1, 1)
         return tuple(float(low + (high - low) * i / last) for i in range(count))
     if not isinstance(value, list) or not value:
         reader.fault(f"grid is {value!r}; expected a list of values, or from, to and count")
         return None
-    if not all(is_number(each) or isinstance(each, (str, bool)) for each in value):
-        reader.fault("a value of a grid is a number, a text or true or false")
+    if not all(is_number(each) or isinstance(each, bool)
+               or (isinstance(each, str) and each.isprintable()) for each in value):
+        reader.fault("a value of a grid is a number, a text of one line, or true or false")
         return None
     return tuple(float(each) if is_number(each) else each for each in value)
 
@@ -233,10 +233,13 @@ def plan_from_table(table: Mapping[str, Any], folder: str, path: str = "plan",
     reader.at_top("asset")
     asset = reader.text(table, "asset")
     rows: list[Vary] = []
+    points = 1
     for number, row in enumerate(rows_of(reader, table, "vary"), 1):
         reader.at("vary", number)
-        if (read := _read_vary(reader, row)) is not None:
+        # Grids that are too large together are not made, each with all of its values.
+        if points <= MAX_CASES and (read := _read_vary(reader, row)) is not None:
             rows.append(read)
+            points *= len(read.values) if read.draw == "grid" else 1
     metrics: list[Metric] = []
     for number, row in enumerate(rows_of(reader, table, "metric"), 1):
         reader.at("metric", number)
@@ -257,7 +260,7 @@ def plan_from_table(table: Mapping[str, Any], folder: str, path: str = "plan",
         reader.whole(table, "seed", 0, 0, (1 << 63) - 1),
         reader.whole(table, "chunk", 64, 1, MAX_CHUNK), tuple(rows), tuple(metrics), path)
     if not reader.faults and plan.case_count > MAX_CASES:
-        reader.fault(f"{plan.case_count} cases; at most {MAX_CASES}")
+        reader.fault(f"{plan.case_count} cases or more; at most {MAX_CASES}")
     if plan.samples > 1 and all(row.draw == "grid" for row in rows) and not reader.faults:
         reader.fault("samples are draws of random and sobol, and no row draws")
     if reader.faults:
@@ -273,15 +276,7 @@ def load_plan(path: str, more: Iterable[str] = (), **changes: Any) -> Plan:
     """
     text = ""
     if path.endswith(".toml"):
-        with open(path, "rb") as file:
-            contents = file.read(MAX_PLAN_BYTES + 1)
-        if len(contents) > MAX_PLAN_BYTES:
-            raise PlanError(path, [Fault("", 0, f"larger than {MAX_PLAN_BYTES} bytes")])
-        try:
-            text = contents.decode("utf-8")
-            table = tomllib.loads(text)
-        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise PlanError(path, [Fault("", 0, str(error))]) from error
+        text, table = read_toml(path, MAX_PLAN_BYTES, PlanError)
     else:
         table = {"asset": os.path.basename(path)}
     folder = os.path.dirname(os.path.abspath(path))

@@ -14,7 +14,7 @@ from typing import Any
 
 from .. import __version__, engines, open as open_stage
 from .._toml import Fault
-from ..errors import Error, FileError, NotFoundError
+from ..errors import Error, FileError, NotFoundError, check_file
 from ..world import World
 from .cases import Case, Cases
 from .plan import Metric, Plan, PlanError, Vary
@@ -200,6 +200,7 @@ def _files(plan: Plan, asset: str) -> dict[str, bytes]:
         inside = os.path.relpath(name, os.path.abspath(plan.folder or ".")) \
             if os.path.isabs(name) else os.path.relpath(name, plan.folder or ".")
         try:
+            check_file(name)
             with open(name, "rb") as file:
                 found[f"{asset}:{inside}"] = file.read()
         except OSError:  # a file of a package, or a missing one

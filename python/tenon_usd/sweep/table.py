@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import check_file
 from ..tables import Table, _extra, _told
 from .chunks import FolderError, Results, columns_of
-from .plan import Metric, Plan, Vary
+from .plan import MAX_CASES, MAX_CHUNK, Metric, Plan, Vary
 
 #: Units of signals and of numbers that vary, by their names in plans.
 UNITS = {
@@ -89,6 +90,7 @@ class SweepTable(Table):
 def _opened(folder: str) -> Results:
     path = os.path.join(folder, "plan.json")
     try:
+        check_file(path)
         with open(path, encoding="utf-8") as file:
             note = json.load(file)
         told: dict[str, Any] = dict(note["plan"])
@@ -96,7 +98,9 @@ def _opened(folder: str) -> Results:
         metrics = tuple(Metric(**row) for row in told.pop("metrics"))
         plan = Plan(folder=folder, vary=vary, metrics=metrics, **told)
         digest = str(note["digest"])
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        if not 1 <= plan.chunk <= MAX_CHUNK or plan.case_count > MAX_CASES:
+            raise ValueError(f"{plan.case_count} cases in chunks of {plan.chunk}")
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise FolderError(f"{folder} holds no results of a sweep: {path}: {error}") from error
     return Results(folder, plan, digest)
 

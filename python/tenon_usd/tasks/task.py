@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from .._toml import Fault, FileError, Reader, is_number, rows_of
+from .._toml import Fault, FileError, Reader, is_number, read_toml, rows_of
 from ..actuators import COMMANDS, Actuator, DCMotor, Delay, Number, PD, Saturation, Stage
 from ..draws import Choice, Distribution, LogUniform, Normal, Uniform
 
@@ -399,13 +398,5 @@ def load(path: str | os.PathLike[str]) -> Task:
     name = os.fspath(path)
     if os.path.basename(name) == name and not name.endswith(".toml"):
         name = str(EXAMPLES / f"{name}.toml")
-    with open(name, "rb") as file:
-        contents = file.read(MAX_BYTES + 1)
-    if len(contents) > MAX_BYTES:
-        raise TaskError(name, [Fault("", 0, f"larger than {MAX_BYTES} bytes")])
-    try:
-        text = contents.decode("utf-8")
-        table = tomllib.loads(text)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
-        raise TaskError(name, [Fault("", 0, str(error))]) from error
+    text, table = read_toml(name, MAX_BYTES, TaskError)
     return task_from_table(table, os.path.dirname(os.path.abspath(name)), name, text)

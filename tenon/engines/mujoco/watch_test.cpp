@@ -133,7 +133,7 @@ TEST(EnergyWatch, KinematicBodiesMayThrowAndCarry) {
   scene.pose_tracks.push_back(track);
   auto sim = simulation(scene);
   EXPECT_FALSE(failure_within(*sim, 1000).has_value());
-  EXPECT_NEAR(sim->body_state(ball).linear_velocity[0], 4.9, 0.05);  // as finer steps have it
+  EXPECT_NEAR(sim->body_state(ball).linear_velocity[0], 4.87, 0.06);  // as on PhysX and Jolt
 }
 
 TEST(EnergyWatch, FallsAndImpactsAreNoGrowth) {
