@@ -18,7 +18,7 @@ namespace tenon::bake {
 
 using scene::Index;
 
-Result<Commands> read_commands(std::shared_ptr<const bytes::FileBytes> file,
+Result<Commands> read_commands(const std::shared_ptr<const bytes::FileBytes>& file,
                                const scene::PhysicsScene& scene,
                                const engines::Simulation& simulation) {
   TENON_TRY(Commands commands, bytes::ZipArchive::is_zip(file->text())

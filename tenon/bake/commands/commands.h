@@ -38,7 +38,7 @@ struct Commands {
 
 /// Of a table with commas (commands_from_csv.h) or an archive of NumPy (commands_from_npz.h), told
 /// by its first bytes.
-Result<Commands> read_commands(std::shared_ptr<const bytes::FileBytes> file,
+Result<Commands> read_commands(const std::shared_ptr<const bytes::FileBytes>& file,
                                const scene::PhysicsScene& scene,
                                const engines::Simulation& simulation);
 

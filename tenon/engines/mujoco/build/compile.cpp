@@ -16,6 +16,7 @@
 #include "tenon/base/limits/engine_limits.h"
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/build/stiffness.h"
+#include "tenon/engines/mujoco/build/surfaces.h"
 #include "tenon/engines/mujoco/build/touching.h"
 #include "tenon/engines/mujoco/error_hook.h"
 #include "tenon/engines/mujoco/run/coupled_drives.h"
