@@ -27,7 +27,7 @@ bool finish_contacts(Model& model) {
   mjData* d = model.data.get();
   bool changed = model.surfaces.by_contact && apply_surfaces(model.surfaces, m, d);
   changed = (model.curved_shapes && leave_out_touching(*m, *d)) || changed;
-  return (model.sliding && soften_sliding(model.surfaces, *m, *d)) || changed;
+  return (softens_friction(model) && soften_sliding(model.surfaces, *m, *d)) || changed;
 }
 
 // mj_step1 by its parts, of which a model without sensors has these.
