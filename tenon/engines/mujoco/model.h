@@ -111,6 +111,14 @@ struct SurfaceKind {
   auto operator<=>(const SurfaceKind&) const = default;
 };
 
+/// A contact whose friction is softened where it slides.
+struct SoftContact {
+  int contact = 0;  ///< into mjData::contact
+  int body0 = 0;    ///< MuJoCo's
+  int body1 = 0;
+  Vec3d apart;  ///< velocity of body 1 against body 0 there [m/s]
+};
+
 /// The surface of each geom; those of pairs are combined when they meet (S-72).
 struct Surfaces {
   bool by_contact = false;  ///< numbers are written into made contacts
@@ -122,6 +130,7 @@ struct Surfaces {
   std::map<double, std::array<double, 2>> solref;  ///< by restitution, of those met so far
   /// (geom_count) the collider says how soft its contacts are; until then per collider.
   std::vector<char> keeps_solref;
+  std::vector<SoftContact> softened;  ///< of the last step
 };
 
 /// What connects the numbers of a model with those of the scene.

@@ -8,7 +8,8 @@
 // Crossley 1975; Nagurka and Huang 2004), but a contact lasts few time steps, so b is found on the
 // discrete motion itself, by bisection, averaged over where in the step the impact falls. Where all
 // surfaces are of one kind the geoms hold what two of them make of each other. Else the values of
-// the pair are written into each contact that is made.
+// the pair are written into each contact that is made. So is how firm the friction of a contact is
+// that slides (docs/simulation.md, friction of what slides).
 #include "tenon/engines/mujoco/build/surfaces.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tenon/math/vector.h"
 
@@ -247,6 +249,40 @@ void resist_turning(const SurfaceKind& a, const SurfaceKind& b, mjContact& conta
   contact.friction[2] = std::max(contact.friction[0] * radius, mjMINMU);
 }
 
+}  // namespace
+
+bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
+  bool changed = false;
+  for (int i = 0; i < data->ncon; ++i) {
+    mjContact& contact = data->contact[i];
+    const int a = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[0])];
+    const int b = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[1])];
+    if (a < 0 || b < 0 || (a == b && !surfaces.kinds[static_cast<std::size_t>(a)].is_special())) {
+      continue;
+    }
+    const SurfaceKind& kind_a = surfaces.kinds[static_cast<std::size_t>(a)];
+    const SurfaceKind& kind_b = surfaces.kinds[static_cast<std::size_t>(b)];
+    contact.friction[0] = std::max(friction_of(kind_a, kind_b), mjMINMU);
+    contact.friction[1] = contact.friction[0];
+    if (surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[0])] == 0 &&
+        surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[1])] == 0) {
+      const std::array<double, 2> solref = solref_of(surfaces, kind_a, kind_b);
+      contact.solref[0] = solref[0];
+      contact.solref[1] = solref[1];
+      if (kind_a.stiffness > 0 || kind_b.stiffness > 0) {
+        make_soft(kind_a, kind_b, surfaces.time_step, *model, contact);
+      }
+    }
+    if (kind_a.patch > 0 || kind_b.patch > 0 || kind_a.min_patch > 0 || kind_b.min_patch > 0) {
+      resist_turning(kind_a, kind_b, contact);
+    }
+    changed = true;
+  }
+  return changed;
+}
+
+namespace {
+
 // Friction of hard contacts whose softness is ours.
 bool may_soften(const Surfaces& surfaces, const mjContact& contact) {
   if (contact.dim < 3 || contact.exclude != 0 || contact.solref[1] >= 0 ||
@@ -289,60 +325,20 @@ double mobility(const mjModel& model, const mjData& data, const mjContact& conta
   return std::max(sum, mjMINVAL);
 }
 
-}  // namespace
-
-bool apply_surfaces(Surfaces& surfaces, const mjModel* model, mjData* data) {
-  bool changed = false;
-  for (int i = 0; i < data->ncon; ++i) {
-    mjContact& contact = data->contact[i];
-    const int a = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[0])];
-    const int b = surfaces.geom_surface[static_cast<std::size_t>(contact.geom[1])];
-    if (a < 0 || b < 0 || (a == b && !surfaces.kinds[static_cast<std::size_t>(a)].is_special())) {
-      continue;
-    }
-    const SurfaceKind& kind_a = surfaces.kinds[static_cast<std::size_t>(a)];
-    const SurfaceKind& kind_b = surfaces.kinds[static_cast<std::size_t>(b)];
-    contact.friction[0] = std::max(friction_of(kind_a, kind_b), mjMINMU);
-    contact.friction[1] = contact.friction[0];
-    if (surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[0])] == 0 &&
-        surfaces.keeps_solref[static_cast<std::size_t>(contact.geom[1])] == 0) {
-      const std::array<double, 2> solref = solref_of(surfaces, kind_a, kind_b);
-      contact.solref[0] = solref[0];
-      contact.solref[1] = solref[1];
-      if (kind_a.stiffness > 0 || kind_b.stiffness > 0) {
-        make_soft(kind_a, kind_b, surfaces.time_step, *model, contact);
-      }
-    }
-    if (kind_a.patch > 0 || kind_b.patch > 0 || kind_a.min_patch > 0 || kind_b.min_patch > 0) {
-      resist_turning(kind_a, kind_b, contact);
-    }
-    changed = true;
-  }
-  return changed;
-}
-
-namespace {
-
-// Of its second body against the first [m/s].
-Vec3d velocity_at(const mjModel& model, const mjData& data, const mjContact& contact) {
-  return velocity_of(model, data, contact.geom[1], contact.pos) -
-         velocity_of(model, data, contact.geom[0], contact.pos);
-}
-
 // What presses on a contact, as an acceleration: what keeps it at its depth, and an impact.
-double load_on(const mjModel& model, const mjData& data, const mjContact& contact) {
+double load_on(const mjContact& contact, const Vec3d& apart) {
   const double depth = std::max(0.0, -contact.dist);
   const double d = impedance(depth);
   const double part = d / kHighImpedance;
-  const double closing = -dot(velocity_at(model, data, contact), read_vector(contact.frame));
+  const double closing = -dot(apart, read_vector(contact.frame));
   return -contact.solref[0] * part * part * depth / (1 - d) -
          contact.solref[1] * std::max(0.0, closing);
 }
 
-bool soften_friction(const mjModel& model, const mjData& data, double load, mjContact& contact) {
+bool soften_friction(const mjModel& model, const mjData& data, const Vec3d& apart, double load,
+                     mjContact& contact) {
   const Vec3d normal = read_vector(contact.frame);
-  Vec3d along = velocity_at(model, data, contact);
-  along = along - normal * dot(along, normal);
+  const Vec3d along = apart - normal * dot(apart, normal);
   const double sliding = length(along);
   const double firm = -contact.solref[1] * sliding;
   const double least = contact.friction[0] * (kPressing + load);
@@ -370,32 +366,33 @@ bool softens_sliding(const mjModel& model) {
   return has_friction && model.opt.cone == mjCONE_ELLIPTIC && !steps_inside;
 }
 
-bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data) {
-  const auto bodies = [&](int i) {
-    const int* const geoms = data.contact[i].geom;
-    return std::pair(geoms[0] < 0 ? -1 : model.geom_bodyid[geoms[0]],
-                     geoms[1] < 0 ? -1 : model.geom_bodyid[geoms[1]]);
-  };
+bool soften_sliding(Surfaces& surfaces, const mjModel& model, mjData& data) {
+  std::vector<SoftContact>& contacts = surfaces.softened;
+  contacts.clear();
+  for (int i = 0; i < data.ncon; ++i) {
+    if (may_soften(surfaces, data.contact[i])) {
+      const int* const geoms = data.contact[i].geom;
+      contacts.push_back({i, model.geom_bodyid[geoms[0]], model.geom_bodyid[geoms[1]], {}});
+    }
+  }
+  if (contacts.empty()) {
+    return false;
+  }
+  mj_comVel(&model, &data);  // of the last step are those from before it
   bool changed = false;
-  bool has_velocities = false;
-  for (int begin = 0, end = 0; begin < data.ncon; begin = end) {
-    while (end < data.ncon && bodies(end) == bodies(begin)) {
-      ++end;
-    }
+  for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
     double load = 0;  // a body that slaps down on one side loads the other
-    for (int i = begin; i < end; ++i) {
-      if (may_soften(surfaces, data.contact[i])) {
-        if (!has_velocities) {  // of the last step are those from before it
-          mj_comVel(&model, &data);
-          has_velocities = true;
-        }
-        load = std::max(load, load_on(model, data, data.contact[i]));
-      }
+    for (; end < contacts.size() && contacts[end].body0 == contacts[begin].body0 &&
+           contacts[end].body1 == contacts[begin].body1;
+         ++end) {
+      const mjContact& contact = data.contact[contacts[end].contact];
+      contacts[end].apart = velocity_of(model, data, contact.geom[1], contact.pos) -
+                            velocity_of(model, data, contact.geom[0], contact.pos);
+      load = std::max(load, load_on(contact, contacts[end].apart));
     }
-    for (int i = begin; i < end; ++i) {
-      if (may_soften(surfaces, data.contact[i])) {
-        changed = soften_friction(model, data, load, data.contact[i]) || changed;
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      mjContact& contact = data.contact[contacts[i].contact];
+      changed = soften_friction(model, data, contacts[i].apart, load, contact) || changed;
     }
   }
   return changed;

@@ -26,6 +26,6 @@ bool softens_sliding(const mjModel& model);
 
 /// Softens the friction of contacts that slide, so that they stay down: in MuJoCo's cones friction
 /// that brakes hard also pushes apart. After apply_surfaces; true when any contact was changed.
-bool soften_sliding(const Surfaces& surfaces, const mjModel& model, mjData& data);
+bool soften_sliding(Surfaces& surfaces, const mjModel& model, mjData& data);
 
 }  // namespace tenon::engines::mujoco
