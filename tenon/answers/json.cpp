@@ -101,7 +101,8 @@ Json parsed(std::string_view text) {
   return Json::sax_parse(text, &builder) ? builder.take() : Json(Json::value_t::discarded);
 }
 
-Result<Json> parsed_file(std::string_view text) {
+Result<Json> parsed_file(std::string_view text,
+                         const std::function<Error(const std::string&)>& bad) {
   Builder builder;
   if (!Json::sax_parse(text, &builder)) {
     const std::string_view before =
@@ -109,14 +110,14 @@ Result<Json> parsed_file(std::string_view text) {
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
     const bool is_empty = text.find_first_not_of(" \t\r\n") == std::string_view::npos;
-    return Error(ErrorCode::Parse, is_empty                       ? "it is empty"
-                                   : builder.overflows()          ? "a number is too large here"
-                                   : before.size() == text.size() ? "its JSON ends too early"
-                                                                  : "it is no JSON here")
+    return bad(is_empty                       ? "it is empty"
+               : builder.overflows()          ? "a number is too large here"
+               : before.size() == text.size() ? "its JSON ends too early"
+                                              : "it is no JSON here")
         .at(static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(column));
   }
   if (!builder.twice().empty()) {
-    return Error(ErrorCode::Parse, builder.twice());
+    return bad(builder.twice());
   }
   return builder.take();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,9 +28,10 @@ inline void append_member(Json& object, std::string key, Json value) {
 /// The value that a text is; one that is discarded (`is_discarded`) where the text is no JSON. Of
 /// keys that an object has twice the last counts.
 Json parsed(std::string_view text);
-/// The value that a file says, with each key once in its object. ErrorCode::Parse with line and
-/// column, or with the key.
-Result<Json> parsed_file(std::string_view text);
+/// The value that a file says, with each key once in its object. Errors: bad(WHY), placed where the
+/// text is no JSON.
+Result<Json> parsed_file(std::string_view text,
+                         const std::function<Error(const std::string&)>& bad);
 
 /// As it is printed: indented, and with an end of line. Bytes that are no UTF-8 are replaced;
 /// `only_ascii` writes other characters as escapes.

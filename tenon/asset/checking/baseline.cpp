@@ -37,12 +37,7 @@ Result<Baseline> Baseline::read(const std::string& path, const bytes::Files& fil
         .in_file(path)
         .with_fix("write one with --write-baseline");
   };
-  const auto parsed = answers::parsed_file(bytes->text());
-  if (!parsed) {
-    const Diagnostic& at = parsed.error().diagnostic();
-    return bad(at.message).at(at.line, at.column);
-  }
-  const Json& json = *parsed;
+  TENON_TRY(const Json json, answers::parsed_file(bytes->text(), bad));
   const bool usable = json.is_object() && baseline_text(json, "schema") == kBaselineSchema &&
                       json.contains("findings") && json["findings"].is_array();
   if (!usable) {

@@ -57,12 +57,9 @@ Result<void> read_gains_file(const std::string& path, const bytes::Files& files,
     return fault("the gains \"" + path +
                  "\" are neither two numbers K,D, nor REGEX=K,D, nor a file that can be read");
   }
-  const auto parsed = answers::parsed_file((*file)->text());
-  if (!parsed) {
-    const Diagnostic& at = parsed.error().diagnostic();
-    return fault("the gains file cannot be read: " + at.message).at(at.line, at.column);
-  }
-  const Json& json = *parsed;
+  TENON_TRY(const Json json, answers::parsed_file((*file)->text(), [&](const std::string& why) {
+              return fault("the gains file cannot be read: " + why);
+            }));
   if (!json.is_object() || json.empty()) {
     return fault("the gains file is not a JSON object with a joint, or \"*\" for all");
   }

@@ -255,17 +255,14 @@ class PairChoice {
     bytes::FileRules rules;
     rules.max_bytes = limits::kPairFileBytes;
     TENON_TRY(const auto contents, options_.open.files->open(file, rules));
-    const auto json = answers::parsed_file(contents->text());
-    if (!json) {
-      const Diagnostic& at = json.error().diagnostic();
-      return bad_json(file, at.message).at(at.line, at.column);
-    }
-    const bool has_pairs =
-        json->is_object() && json->contains("pairs") && (*json)["pairs"].is_array();
+    TENON_TRY(const answers::Json json,
+              answers::parsed_file(contents->text(),
+                                   [&](const std::string& why) { return bad_json(file, why); }));
+    const bool has_pairs = json.is_object() && json.contains("pairs") && json["pairs"].is_array();
     if (!has_pairs) {
       return bad_json(file, "it has no list \"pairs\"");
     }
-    for (const answers::Json& pair : (*json)["pairs"]) {
+    for (const answers::Json& pair : json["pairs"]) {
       const auto text = [&](const char* key) {
         const bool has = pair.is_object() && pair.contains(key) && pair[key].is_string();
         return has ? pair[key].get<std::string>() : std::string();

@@ -219,12 +219,10 @@ Result<std::vector<physics::NamedPose>> read_poses_file(const PoseOfAsset& pose,
   bytes::FileRules rules;
   rules.max_bytes = limits::kPoseFileBytes;
   TENON_TRY(const auto contents, files->open(file, rules));
-  const auto json = answers::parsed_file(contents->text());
-  if (!json) {
-    const Diagnostic& at = json.error().diagnostic();
-    return poses_error(file, at.message).at(at.line, at.column);
-  }
-  return PosesReader(pose, robot, file).read(*json);
+  TENON_TRY(const Json json, answers::parsed_file(contents->text(), [&](const std::string& why) {
+              return poses_error(file, why);
+            }));
+  return PosesReader(pose, robot, file).read(json);
 }
 
 Result<std::vector<physics::NamedPose>> poses_of_text(const PoseOfAsset& pose, const Path& robot,
