@@ -254,7 +254,7 @@ def _read_jsonl(path: str) -> Log:
         except UnicodeDecodeError as error:
             raise LogError(f"is no text in UTF-8: {error.reason}") from error
         except (*NOT_OURS, RecursionError) as error:
-            raise LogError(f"line {number} is none of a log: {error!r}") from error
+            raise LogError(f"line {number} is not one of a log: {error!r}") from error
     names = list(samples[0]) if samples else ["time"]
     if len(names) * len(samples) > 1_000_000 + 10 * sum(map(len, samples)):
         raise LogError(f"most lines lack most of the {len(names)} numbers of the first one")
@@ -262,7 +262,7 @@ def _read_jsonl(path: str) -> Log:
     try:
         contacts = _jsonl_contacts(lines)
     except NOT_OURS as error:
-        raise LogError(f"a contact is none of a log: {error!r}") from error
+        raise LogError(f"a contact is not one of a log: {error!r}") from error
     return make_log(columns.pop("time"), columns, contacts)
 
 

@@ -67,7 +67,8 @@ class RunReport {
                             : ", and so were " + std::to_string(count - 1) + " more";
     }
     add("sim.limit-rebound", first->prim, std::move(message),
-        "author mjc:solreflimit of MjcJointAPI: with (0.0044, 8) less than a tenth of it is left",
+        "author mjc:solreflimit (0.0044, 8) and mjc:solimplimit (0.99, 0.999, 0.001, 0.5, 2) of "
+        "MjcJointAPI: less than a tenth of it is left",
         Severity::Info);
   }
 

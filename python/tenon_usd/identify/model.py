@@ -41,7 +41,7 @@ FEW_ENVS = 64
 #: back, while under efforts alone it grows.
 WINDOW, OPEN_WINDOW = 4.0, 0.5
 #: Time constants until what a window begins with is forgotten, and the part of it that is at most
-#: left out for that.
+#: skipped for that.
 FORGOTTEN, MOST_LEFT_OUT = 4.0, 0.25
 #: The integrator of highest order of an engine, where it can be chosen.
 INTEGRATORS = {"mujoco": "rk4"}
