@@ -66,24 +66,40 @@ TEST(Contacts, FrictionHoldsUpToItsAngle) {
   }
 }
 
+// A slider on a spring that steps of MuJoCo's integrator discrete alone take, far from the rest.
+void add_stiff_slider(TestScene& scene) {
+  const auto body = scene.add_body("Slider", {{50, 0, 5}}, 1);
+  scene::Joint& joint = scene.add_joint("Rail", JointKind::Prismatic, {}, body, Axis::X);
+  joint.frame0.position = {{50, 0, 5}};
+  joint.stiffness = 1e7;
+  joint.spring_reference = 0.1;
+  joint.damping = 100;
+}
+
 // Friction of MuJoCo's cones that brakes hard lifts what slides: as hard as contacts by 30 mm here.
 TEST(Contacts, WhatSlidesFastStaysDownAndLevel) {
-  TestScene scene = box_on_ground(0.05);
-  scene.colliders[0].shape = box({{0.2, 0.2, 0.05}});
-  scene.scenes[0].gravity = {{kG * std::sqrt(0.5), 0, -kG * std::sqrt(0.5)}};
-  auto sim = simulation(scene);
-  double highest = 0;
-  double turning = 0;
-  for (int i = 0; i < 400; ++i) {
-    ASSERT_TRUE(sim->step().has_value());
-    const BodyState state = sim->body_state(0);
-    highest = std::max(highest, state.pose.position[2] - 0.05);
-    turning = std::max(turning, length(state.angular_velocity));
+  for (const bool discrete : {false, true}) {
+    TestScene scene = box_on_ground(0.05);
+    scene.colliders[0].shape = box({{0.2, 0.2, 0.05}});
+    scene.scenes[0].gravity = {{kG * std::sqrt(0.5), 0, -kG * std::sqrt(0.5)}};
+    if (discrete) {
+      add_stiff_slider(scene);
+    }
+    auto sim = simulation(scene);
+    ASSERT_EQ(sim->engine_model().opt.integrator == mjINT_DISCRETE, discrete);
+    double highest = 0;
+    double turning = 0;
+    for (int i = 0; i < 400; ++i) {
+      ASSERT_TRUE(sim->step().has_value());
+      const BodyState state = sim->body_state(0);
+      highest = std::max(highest, state.pose.position[2] - 0.05);
+      turning = std::max(turning, length(state.angular_velocity));
+    }
+    EXPECT_LT(highest, 1e-3);
+    EXPECT_LT(turning, 1);
+    const double way = kG * std::sqrt(0.5) * (1 - 0.5) * 0.8 * 0.8 / 2;
+    EXPECT_NEAR(sim->body_state(0).pose.position[0], way, 0.005 * way);
   }
-  EXPECT_LT(highest, 1e-3);
-  EXPECT_LT(turning, 1);
-  const double way = kG * std::sqrt(0.5) * (1 - 0.5) * 0.8 * 0.8 / 2;
-  EXPECT_NEAR(sim->body_state(0).pose.position[0], way, 0.005 * way);
 }
 
 TEST(Contacts, FrictionOfAPairIsTheAverage) {
@@ -467,6 +483,29 @@ TEST(Contacts, RungeKuttaStepsAreThoseOfMujocoAlsoWithSeveralMaterials) {
     EXPECT_NEAR(length(ends[i].pose.position - ends[i + 2].pose.position), 0, 1e-9);
     EXPECT_NEAR(length(ends[i].angular_velocity - ends[i + 2].angular_velocity), 0, 1e-4);
   }
+}
+
+// Nor has the integrator discrete a metric to solve in where constraints are made by its parts.
+TEST(Contacts, DiscreteStepsAreThoseOfMujocoAlsoWithSeveralMaterials) {
+  std::vector<double> ends;
+  for (const bool several : {false, true}) {
+    TestScene scene = box_on_ground();
+    add_stiff_slider(scene);
+    if (several) {
+      const auto far = scene.add_collider("Far", {}, sphere(0.1), {{{90, 0, 0}}});
+      scene.colliders[far].material = add_material(scene, "Rubber", 0.9);
+    }
+    auto sim = simulation(scene);
+    ASSERT_EQ(sim->engine_model().opt.integrator, mjINT_DISCRETE);
+    double farthest = 0;
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_TRUE(sim->step().has_value());
+      farthest = std::max(farthest, std::abs(sim->joint_state(0).position[0]));
+    }
+    EXPECT_LT(farthest, 0.21);  // the spring starts 0.1 m from where it rests
+    ends.push_back(sim->joint_state(0).position[0]);
+  }
+  EXPECT_NEAR(ends[0], ends[1], 1e-9);
 }
 
 // 64 robots have the meshes of one.

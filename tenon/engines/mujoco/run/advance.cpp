@@ -27,7 +27,7 @@ bool finish_contacts(Model& model) {
   mjData* d = model.data.get();
   bool changed = model.surfaces.by_contact && apply_surfaces(model.surfaces, m, d);
   changed = (model.curved_shapes && leave_out_touching(*m, *d)) || changed;
-  return (softens_friction(model) && soften_sliding(model.surfaces, *m, *d)) || changed;
+  return (model.sliding && soften_sliding(model.surfaces, *m, *d)) || changed;
 }
 
 // mj_step1 by its parts, of which a model without sensors has these.
@@ -46,8 +46,8 @@ void derive_forces(Model& model) {
   mj_fwdVelocity(m, d);
 }
 
-// What wakes and falls asleep is decided where MuJoCo derives positions: constraints are made again
-// after it.
+// What wakes and falls asleep is decided where MuJoCo derives positions, as is the metric of the
+// integrator `discrete`: constraints are made again after it.
 void finish_late(Model& model) {
   const mjModel* m = model.model.get();
   mjData* d = model.data.get();
@@ -67,6 +67,10 @@ void end_step(Model& model) {
 }
 
 bool may_sleep(const Model& model) { return (model.model->opt.enableflags & mjENBL_SLEEP) != 0; }
+
+bool finishes_late(const Model& model) {
+  return may_sleep(model) || model.model->opt.integrator == mjINT_DISCRETE;
+}
 
 bool is_evaluated_by_mujoco(const Model& model) {
   return finishes_contacts(model) && may_sleep(model) && model.model->opt.integrator == mjINT_RK4;
@@ -140,7 +144,7 @@ void advance(Model& model) {
   } else if (!finishes_contacts(model) ||
              (is_evaluated_by_mujoco(model) && !steps_by_euler_instead(model))) {
     mj_step(m, d);
-  } else if (may_sleep(model)) {
+  } else if (finishes_late(model)) {
     mj_step1(m, d);
     finish_late(model);
     end_step(model);

@@ -11,15 +11,9 @@ namespace tenon::engines::mujoco {
 /// the model lives.
 void advance(Model& model);
 
-/// Whether friction is softened where surfaces slide. Not with the integrator `discrete`: MuJoCo
-/// makes its step as a whole.
-inline bool softens_friction(const Model& model) {
-  return model.sliding && model.model->opt.integrator != mjINT_DISCRETE;
-}
-
 /// Whether something is written into contacts before constraints are made of them.
 inline bool finishes_contacts(const Model& model) {
-  return model.surfaces.by_contact || model.curved_shapes || softens_friction(model);
+  return model.surfaces.by_contact || model.curved_shapes || model.sliding;
 }
 
 /// While one lives, contacts of `model` are finished on this thread in each of the evaluations of

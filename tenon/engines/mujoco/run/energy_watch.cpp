@@ -145,6 +145,7 @@ void EnergyWatch::begin(const Model& model, bool pushed) {
   pushed_ = pushed;
   if (fresh_) {
     read_springs(model);
+    positions_.assign(d.qpos, d.qpos + model.model->nq);
   } else if (!controls_.empty() &&
              std::memcmp(controls_.data(), d.ctrl, controls_.size() * sizeof(double)) != 0) {
     follow_targets(model);
@@ -179,10 +180,10 @@ std::optional<EnergyWatch::Growth> EnergyWatch::end(const Model& model) {
   return early || steps_ % between_ == 0 ? judge(model) : std::nullopt;
 }
 
-// Derived numbers and forces are those of the beginning of the step.
+// Derived numbers and forces are those of the beginning of the step; positions are not.
 void EnergyWatch::set_baseline(const Model& model) {
   const mjModel& m = *model.model;
-  const mjData& d = *model.data;
+  mjData& d = *model.data;
   fresh_ = false;
   steps_ = 0;
   outside_ = has_outside_forces(m, d);
@@ -207,7 +208,9 @@ void EnergyWatch::set_baseline(const Model& model) {
         std::find(driven_bodies_.begin(), driven_bodies_.end(), b) != driven_bodies_.end();
     scale_ += stands ? 0 : weight_work(m, d, b, gravity);
   }
+  std::swap_ranges(positions_.begin(), positions_.end(), d.qpos);
   lowest_ = highest_ = potential_energy(model);
+  std::swap_ranges(positions_.begin(), positions_.end(), d.qpos);
   start_ = kinetic + stretched + lowest_;
 }
 

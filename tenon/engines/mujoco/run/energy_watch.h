@@ -62,10 +62,11 @@ class EnergyWatch {
   std::vector<int> driven_;    ///< first of six coordinates of bodies that follow poses
   std::vector<int> driven_bodies_;
   bool moved_ = false;  ///< something follows poses or bounds: constraints may give energy
-  std::vector<double> controls_;  ///< that springs' targets are (control count)
-  std::vector<double> velocity_;  ///< at the beginning of the step (dof_count)
-  std::vector<double> scratch_;   ///< (dof_count)
-  int between_ = 1;               ///< steps from one judgement to the next
+  std::vector<double> controls_;   ///< that springs' targets are (control count)
+  std::vector<double> velocity_;   ///< at the beginning of the step (dof_count)
+  std::vector<double> positions_;  ///< at the beginning of the first one (nq)
+  std::vector<double> scratch_;    ///< (dof_count)
+  int between_ = 1;                ///< steps from one judgement to the next
   int steps_ = 0;
   bool fresh_ = true;
   double start_ = 0;  ///< energy at the baseline, springs included [J]
