@@ -86,10 +86,11 @@ done
 "$bin/patchelf" --set-rpath "\$ORIGIN/../../lib" "$prefix/libexec/tenon/tenon-worker"
 
 rm -rf build/wheel/raw
-# CMake and ninja are those of the system.
+# CMake and ninja are those of the system. Debian 12's pip 23.0 knows no -C.
 CMAKE_BUILD_PARALLEL_LEVEL=$jobs PATH="$bin:$PATH" "$bin/python" -m pip wheel ./python --quiet \
   --disable-pip-version-check --no-build-isolation --no-deps --wheel-dir build/wheel/raw \
-  -C build-dir="$PWD/build/wheel/{wheel_tag}" -C cmake.define.TENON_PREFIX="$prefix"
+  --config-settings build-dir="$PWD/build/wheel/{wheel_tag}" \
+  --config-settings cmake.define.TENON_PREFIX="$prefix"
 rm -rf build/wheel/repaired
 PATH="$bin:$PATH" "$bin/auditwheel" repair build/wheel/raw/*.whl --wheel-dir build/wheel/repaired \
   >>build/wheel.log 2>&1 || { tail -n 20 build/wheel.log >&2; exit 1; }
