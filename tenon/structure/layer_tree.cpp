@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tenon/layer/child_lists.h"
+#include "tenon/layer/expressions/path_expression.h"
 #include "tenon/layer/fields.h"
 
 namespace tenon::structure {
@@ -148,6 +149,11 @@ Spec& put_property(Layer& layer, Path path, const Spec& from, const PathMap& map
     if (op != nullptr) {
       spec.set(field, mapped(*op, map));
     }
+  }
+  const layer::Value* const value = map ? from.find(fields::default_value) : nullptr;
+  layer::Value moved = value == nullptr ? layer::Value() : *value;
+  if (layer::map_paths(moved, path.parent(), map)) {  // path expressions
+    spec.set(fields::default_value, std::move(moved));
   }
   return spec;
 }

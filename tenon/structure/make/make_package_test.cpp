@@ -331,6 +331,43 @@ TEST(MakePackage, AMeshThatIsABodyStaysOneAtItsPath) {
   expect_idempotent(asset);
 }
 
+TEST(MakePackage, MeshesBelowACollidingOneHaveToCollideByThemselves) {
+  const auto text = [](const char* apis) {
+    std::string outer = mesh("outer", kA, "\"PhysicsCollisionAPI\"", "");
+    outer.insert(outer.rfind('}'), mesh("inner", kA, apis, ""));
+    return kHead + "def Xform \"robot\" {\n" + outer + "}\n";
+  };
+  Diagnostics diagnostics;
+  const auto refused = make_package(source_of(text("\"MaterialBindingAPI\"")), {}, diagnostics);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().diagnostic().rule, "structure.differs");
+  EXPECT_EQ(refused.error().diagnostic().prim, "/robot/outer");
+  EXPECT_NE(refused.error().diagnostic().fix.find("PhysicsCollisionAPI"), std::string::npos);
+  EXPECT_EQ(
+      physics_of(made(source_of(text("\"PhysicsCollisionAPI\""))), "physics").colliders.size(), 2u);
+}
+
+TEST(MakePackage, ExpressionsInInstancesFollowThem) {
+  const StructuredAsset asset = made(source_of(kHead + R"(def Xform "robot" {
+    def "first" (instanceable = true
+        prepend references = </part>) { }
+    def "second" (instanceable = true
+        prepend references = </part>) { }
+}
+def "part" {
+    def "shape" {
+        pathExpression near = "../other//*bar - inner"
+        pathExpression[] several = ["/robot//x", "../shape"]
+        def "inner" { }
+    }
+    def "other" { }
+}
+)"));
+  EXPECT_TRUE(
+      has(text_of(asset, Role::Base), "/robot/second/other//*bar - /robot/second/shape/inner"));
+  expect_idempotent(asset);
+}
+
 TEST(MakePackage, KeepsOtherVariantSets) {
   const std::string text = kHead + R"(
 def Xform "robot" (

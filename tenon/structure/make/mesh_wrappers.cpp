@@ -72,6 +72,24 @@ bool is_wrapped(const Layer& content, Path mesh) {
                      [&](Path child) { return child == mesh || holds_materials(content, child); });
 }
 
+Path collider_of_several(const Layer& content) {
+  for (const Path& prim : prims_below(content)) {
+    if (type_of(content, prim) != "Mesh" || has_api(content, prim, "PhysicsCollisionAPI")) {
+      continue;
+    }
+    Path above = prim.parent();  // the nearest that is a collider or a body itself
+    while (!above.is_absolute_root() && !has_api(content, above, "PhysicsCollisionAPI") &&
+           !has_api(content, above, "PhysicsRigidBodyAPI")) {
+      above = above.parent();
+    }
+    if (type_of(content, above) == "Mesh" && has_api(content, above, "PhysicsCollisionAPI") &&
+        !has_api(content, prim, "PhysicsRigidBodyAPI")) {
+      return above;
+    }
+  }
+  return {};
+}
+
 void copy_geometry(const Layer& content, Path mesh, Layer& target, Path to) {
   for (const Path& path : prims_below(content, mesh)) {
     const Path copy = path.replace_prefix(mesh, to);

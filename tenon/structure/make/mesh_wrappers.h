@@ -49,6 +49,10 @@ bool is_wrapped(const layer::Layer& content, Path mesh);
 /// The scope or prim holds materials and nothing else.
 bool holds_materials(const layer::Layer& content, Path prim);
 
+/// The first mesh that collides together with meshes below it (collider.submeshes), which no longer
+/// are there in the structure; empty for none.
+Path collider_of_several(const layer::Layer& content);
+
 /// The geometry of a mesh and its subsets alone, at `to`.
 void copy_geometry(const layer::Layer& content, Path mesh, layer::Layer& target, Path to);
 
