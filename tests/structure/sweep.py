@@ -186,7 +186,8 @@ def main():
     for name in names[REFUSED]:
         print(f"refused by a limit {name}")
     print(f"{len(names[HOLDS])} of {len(names[HOLDS]) + len(misses)} assets hold, "
-          f"{len(set(misses) & set(known))} of the others known; {len(names[REFUSED])} are refused by a limit, "
+          f"{len(set(misses) & set(known))} of the others known; "
+          f"{len(names[REFUSED])} are refused by a limit, "
           f"{len(names[NOTHING])} files have no default prim or cannot be read")
     return 1 if set(misses) - set(known) or right or not names[HOLDS] else 0
 

@@ -316,17 +316,7 @@ class Maker {
   // Wrappers, local materials, metadata: the same for all.
 
   Result<void> give_wrappers() {
-    const Layer united = unite(contents_of(views_));
-    if (const Path mesh = collider_of_several(united); !mesh.empty()) {
-      return Error(ErrorCode::Invalid,
-                   "meshes below this one are part of its collider; in the structure each mesh "
-                   "stands by itself")
-          .with_rule("structure.differs")
-          .with_prim(mesh.str())
-          .with_fix(
-              "nothing was written; apply PhysicsCollisionAPI to each mesh that is to collide");
-    }
-    moves_.emplace(united);
+    TENON_TRY(moves_, MeshMoves::of(unite(contents_of(views_))));
     for (View& view : views_) {
       prepare(*moves_, options_.names, view.content);
     }

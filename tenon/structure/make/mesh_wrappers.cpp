@@ -47,6 +47,29 @@ bool has_only_subsets(const Layer& content, Path mesh) {
                      [&](Path child) { return type_of(content, child) == "GeomSubset"; });
 }
 
+Result<void> check_colliders(const Layer& content) {
+  for (const Path& prim : prims_below(content)) {
+    if (type_of(content, prim) != "Mesh" || has_api(content, prim, "PhysicsCollisionAPI")) {
+      continue;
+    }
+    Path above = prim.parent();  // the nearest that is a collider or a body itself
+    while (!above.is_absolute_root() && !has_api(content, above, "PhysicsCollisionAPI") &&
+           !has_api(content, above, "PhysicsRigidBodyAPI")) {
+      above = above.parent();
+    }
+    if (type_of(content, above) == "Mesh" && has_api(content, above, "PhysicsCollisionAPI") &&
+        !has_api(content, prim, "PhysicsRigidBodyAPI")) {
+      return Error(ErrorCode::Invalid,
+                   "meshes below this one are part of its collider; in the structure each mesh "
+                   "stands by itself")
+          .with_rule("structure.differs")
+          .with_prim(above.str())
+          .with_fix("apply PhysicsCollisionAPI to each mesh that is to collide");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 bool holds_materials(const Layer& content, Path prim) {
@@ -72,24 +95,6 @@ bool is_wrapped(const Layer& content, Path mesh) {
                      [&](Path child) { return child == mesh || holds_materials(content, child); });
 }
 
-Path collider_of_several(const Layer& content) {
-  for (const Path& prim : prims_below(content)) {
-    if (type_of(content, prim) != "Mesh" || has_api(content, prim, "PhysicsCollisionAPI")) {
-      continue;
-    }
-    Path above = prim.parent();  // the nearest that is a collider or a body itself
-    while (!above.is_absolute_root() && !has_api(content, above, "PhysicsCollisionAPI") &&
-           !has_api(content, above, "PhysicsRigidBodyAPI")) {
-      above = above.parent();
-    }
-    if (type_of(content, above) == "Mesh" && has_api(content, above, "PhysicsCollisionAPI") &&
-        !has_api(content, prim, "PhysicsRigidBodyAPI")) {
-      return above;
-    }
-  }
-  return {};
-}
-
 void copy_geometry(const Layer& content, Path mesh, Layer& target, Path to) {
   for (const Path& path : prims_below(content, mesh)) {
     const Path copy = path.replace_prefix(mesh, to);
@@ -110,7 +115,9 @@ void copy_geometry(const Layer& content, Path mesh, Layer& target, Path to) {
   }
 }
 
-MeshMoves::MeshMoves(const Layer& united) {
+Result<MeshMoves> MeshMoves::of(const Layer& united) {
+  TENON_CHECK(check_colliders(united));
+  MeshMoves moves;
   GeometryKeys keys;
   std::map<std::string, std::string> names;  // of geometries
   for (const Path& prim : prims_below(united)) {
@@ -119,9 +126,10 @@ MeshMoves::MeshMoves(const Layer& united) {
     }
     const auto known = names.emplace(keys.key(united, prim), prim.name().str());
     if (!is_wrapped(united, prim)) {
-      add(united, prim, known.first->second);
+      moves.add(united, prim, known.first->second);
     }
   }
+  return moves;
 }
 
 void MeshMoves::add(const Layer& united, Path mesh, const std::string& name) {

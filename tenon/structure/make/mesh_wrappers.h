@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
 #include "tenon/structure/layer_tree.h"
 
@@ -16,7 +17,9 @@ namespace tenon::structure {
 class MeshMoves {
  public:
   /// Decided on all views of an asset laid over each other, so that all of them move alike.
-  explicit MeshMoves(const layer::Layer& united);
+  /// Errors: Invalid "structure.differs" where a mesh collides together with meshes below it
+  /// (collider.submeshes), which are no longer there in the structure.
+  static Result<MeshMoves> of(const layer::Layer& united);
 
   bool empty() const { return moves_.empty(); }
   /// Old place and new place of each mesh that moves.
@@ -48,10 +51,6 @@ class MeshMoves {
 bool is_wrapped(const layer::Layer& content, Path mesh);
 /// The scope or prim holds materials and nothing else.
 bool holds_materials(const layer::Layer& content, Path prim);
-
-/// The first mesh that collides together with meshes below it (collider.submeshes), which no longer
-/// are there in the structure; empty for none.
-Path collider_of_several(const layer::Layer& content);
 
 /// The geometry of a mesh and its subsets alone, at `to`.
 void copy_geometry(const layer::Layer& content, Path mesh, layer::Layer& target, Path to);
