@@ -69,7 +69,8 @@ TEST(Contacts, FrictionHoldsUpToItsAngle) {
 // A slider on a spring that steps of MuJoCo's integrator discrete alone take, far from the rest.
 void add_stiff_slider(TestScene& scene) {
   const auto body = scene.add_body("Slider", {{50, 0, 5}}, 1);
-  scene::Joint& joint = scene.add_joint("Rail", JointKind::Prismatic, {}, body, Axis::X);
+  scene::Joint& joint =
+      scene.add_joint("Rail", scene::JointKind::Prismatic, {}, body, scene::Axis::X);
   joint.frame0.position = {{50, 0, 5}};
   joint.stiffness = 1e7;
   joint.spring_reference = 0.1;
@@ -390,7 +391,8 @@ TEST(Contacts, ManyStaticCollidersCollide) {
   TestScene scene;
   constexpr int kAcross = 80;
   for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Vec3d place{{static_cast<double>(i % kAcross), static_cast<double>(i / kAcross), -0.5}};
+    const int row = i / kAcross;
+    const Vec3d place{{static_cast<double>(i % kAcross), static_cast<double>(row), -0.5}};
     scene.add_collider("floor" + std::to_string(i), std::nullopt, box({{0.5, 0.5, 0.5}}),
                        Pose{place, kIdentityRotation});
   }
