@@ -345,6 +345,9 @@ TEST(MakePackage, MeshesBelowACollidingOneHaveToCollideByThemselves) {
   EXPECT_NE(refused.error().diagnostic().fix.find("PhysicsCollisionAPI"), std::string::npos);
   EXPECT_EQ(
       physics_of(made(source_of(text("\"PhysicsCollisionAPI\""))), "physics").colliders.size(), 2u);
+  std::string off = text("\"MaterialBindingAPI\"");
+  off.insert(off.find("prepend", off.find("\"inner\"")), "active = false\n");
+  EXPECT_EQ(physics_of(made(source_of(off)), "physics").colliders.size(), 1u);
 }
 
 TEST(MakePackage, ExpressionsInInstancesFollowThem) {

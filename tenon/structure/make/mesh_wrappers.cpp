@@ -49,7 +49,8 @@ bool has_only_subsets(const Layer& content, Path mesh) {
 
 Result<void> check_colliders(const Layer& content) {
   for (const Path& prim : prims_below(content)) {
-    if (type_of(content, prim) != "Mesh" || has_api(content, prim, "PhysicsCollisionAPI")) {
+    if (type_of(content, prim) != "Mesh" || !is_active(content, prim) ||
+        has_api(content, prim, "PhysicsCollisionAPI")) {
       continue;
     }
     Path above = prim.parent();  // the nearest that is a collider or a body itself
