@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which parts a prim names, what is measured, which meshes are equal, and how fine pictures are.
+// Which parts a prim names, what is measured, which meshes are equal, how fine pictures are, and
+// cameras of the asset.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as THREE from "three";
@@ -10,6 +11,7 @@ import { rollPitchYaw } from "../src/live/values";
 import { volumeText } from "../src/panel/inspector";
 import { measured } from "../src/panel/measure";
 import { Batches, digest } from "../src/scene/batches";
+import { Eye, usualAngle } from "../src/scene/eye";
 import { Pace } from "../src/scene/pace";
 import { names } from "../src/scene/visibility";
 
@@ -79,6 +81,34 @@ test("pictures are coarse while they come slowly and fine at rest", () => {
   assert.equal(pace.restsAt(2.5), true);
   pace.fine();
   assert.equal(pace.share, 1);
+  assert.equal(pace.restsAt(9), false);
+  assert.equal(pace.restsAt(9, true), true); // the shadow is missing
+});
+
+test("a camera of the asset is stood at, goes with its body, and is left where one looks", () => {
+  const camera = new THREE.PerspectiveCamera(usualAngle, 2);
+  const controls = { target: new THREE.Vector3() };
+  const eye = new Eye(camera, controls as never);
+  const body = new THREE.Group();
+  body.position.set(0, 0, 5);
+  const scene = new THREE.Sphere(new THREE.Vector3(), 1);
+  // It sees 90 degrees sideways; the picture is twice as wide as high.
+  eye.through = { path: "/eye", body: 0, pose: [0, 1, 0, 0, 0, 0, 1], halfWidth: 1, halfHeight: 0.25 };
+  eye.stand(body, scene);
+  assert.deepEqual(camera.position.toArray(), [0, 1, 5]);
+  assert.ok(Math.abs(Math.tan((camera.fov * Math.PI) / 360) - 0.5) < 1e-9);
+  assert.deepEqual(controls.target.toArray().map((x) => Math.round(x * 1e6) / 1e6), [0, 1, 0]);
+  body.position.set(2, 0, 5);
+  eye.stand(body, scene);
+  assert.deepEqual(camera.position.toArray(), [2, 1, 5]);
+  eye.leave();
+  assert.equal(camera.fov, usualAngle);
+  assert.equal(eye.through, null);
+  const seen = camera.position.distanceTo(controls.target) * Math.tan((usualAngle * Math.PI) / 360);
+  assert.ok(Math.abs(seen - 5 * 0.5) < 1e-6, "what is ahead keeps its size");
+  body.position.set(9, 9, 9);
+  eye.stand(body, scene);
+  assert.equal(camera.position.x, 2, "a camera that was left is stood at no longer");
 });
 
 test("numbers that people read", () => {

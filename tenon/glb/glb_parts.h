@@ -69,16 +69,20 @@ class GlbMaterials {
 
  private:
   GltfJson write(const view::ViewMaterial& look, bool two_sided);
+  void add_extras(const view::ViewMaterial& look, GltfJson& material);
   GltfJson texture(const view::ViewTexture& texture);
+  int sampler(const view::ViewTexture& texture);
   int image(Index number);
 
   const view::ViewScene& view_;
   GlbBuffer& buffer_;
   std::map<std::tuple<std::optional<Index>, bool>, int> known_;
-  std::map<std::pair<int, bool>, int> texture_numbers_;
+  std::map<std::pair<int, int>, int> texture_numbers_;  // of images with their samplers
+  std::map<std::pair<int, int>, int> sampler_numbers_;  // of the wraps of both directions
   std::map<Index, int> image_numbers_;
   GltfJson materials_ = GltfJson::array();
   GltfJson textures_ = GltfJson::array();
+  GltfJson samplers_ = GltfJson::array();
   GltfJson images_ = GltfJson::array();
   bool moved_ = false;
 };

@@ -74,6 +74,14 @@ GltfJson collider_extras(const view::ViewCollider& collider) {
           {"hullGap", or_null(collider.hull_gap)}};
 }
 
+GltfJson camera_extras(const view::ViewCamera& camera) {
+  return {{"path", camera.path.str()},
+          {"body", or_null(camera.body)},
+          {"pose", pose_numbers(camera.pose)},
+          {"halfWidth", camera.half_width},
+          {"halfHeight", camera.half_height}};
+}
+
 template <class T, class Write>
 GltfJson list_of(const std::vector<T>& values, Write write) {
   GltfJson list = GltfJson::array();
@@ -102,6 +110,7 @@ GltfJson scene_extras(const view::ViewScene& view) {
                 {"links", articulation.links},
                 {"joints", articulation.joints}};
       });
+  extras["cameras"] = list_of(view.cameras, camera_extras);
   GltfJson pairs = GltfJson::array();
   for (const auto& [a, b] : view.filtered_pairs) {
     const auto number = [](Index body) { return body == view::kWorld ? -1L : long{body}; };

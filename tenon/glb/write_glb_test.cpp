@@ -140,6 +140,80 @@ TEST(WriteGlb, AShapeWithoutMaterialIsGreyAndNoMetalFromOneSideAndFromTwo) {
             gltf["materials"][1].contains("doubleSided"));
 }
 
+/// A body whose shape has a material with an image.
+view::ViewScene with_image() {
+  view::ViewScene view = one_body(1);
+  view.images.push_back({"i.png", "image/png", "bytes"});
+  view::ViewMaterial& look = view.materials.emplace_back();
+  look.color_texture.emplace();
+  view.shapes[0].material = 0;
+  return view;
+}
+
+TEST(WriteGlb, OpacityOfTheColoursImageIsItsAlpha) {
+  view::ViewScene view = with_image();
+  view::ViewOpacity& opacity = view.materials[0].opacity_texture.emplace();
+  opacity.texture = *view.materials[0].color_texture;
+  opacity.factor = 0.5;
+  const json gltf = checked_json(write_glb(view, {}));
+  const json& material = gltf["materials"][0];
+  EXPECT_EQ(material["alphaMode"], "BLEND");
+  EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][3], 0.5);
+  EXPECT_FALSE(material.contains("extras"));
+}
+
+TEST(WriteGlb, OpacityOfAnotherImageIsInTheExtras) {
+  view::ViewScene view = with_image();
+  view.images.push_back({"mask.png", "image/png", "mask"});
+  view.materials[0].cutout = 0.25;
+  view::ViewOpacity& opacity = view.materials[0].opacity_texture.emplace();
+  opacity.texture.image = 1;
+  opacity.texture.wrap_s = view::ViewWrap::Black;
+  opacity.channel = 0;
+  opacity.factor = -1;
+  opacity.add = 1;
+  const json gltf = checked_json(write_glb(view, {}));
+  const json& material = gltf["materials"][0];
+  EXPECT_EQ(material["alphaMode"], "MASK");
+  const json& said = material["extras"]["tenon"]["opacity"];
+  EXPECT_EQ(said["channel"], "r");
+  EXPECT_EQ(said["factor"], -1.0);
+  EXPECT_EQ(said["add"], 1.0);
+  EXPECT_EQ(said["ends"], json({true, false}));
+  const json& color = material["pbrMetallicRoughness"]["baseColorTexture"];
+  EXPECT_NE(said["index"], color["index"]);
+}
+
+// USD reads at turn * scale * st + offset from the lower left, glTF the same from the upper left.
+TEST(WriteGlb, TurnedImagesAreReadWhereUsdReadsThem) {
+  view::ViewScene view = with_image();
+  view::ViewTexture& texture = *view.materials[0].color_texture;
+  texture.scale = {{3, 2}};
+  texture.turn = 0.3;
+  texture.offset = {{0.25, 0.5}};
+  texture.wrap_t = view::ViewWrap::Mirror;
+  const json gltf = checked_json(write_glb(view, {}));
+  const json& info = gltf["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  const json& moved = info["extensions"]["KHR_texture_transform"];
+  const double turn = moved["rotation"];
+  for (const Vec2d st : {Vec2d{{0, 0}}, Vec2d{{1, 0}}, Vec2d{{0.2, 0.7}}}) {
+    const double s = 3 * st[0];
+    const double t = 2 * st[1];
+    const Vec2d wanted{{std::cos(0.3) * s - std::sin(0.3) * t + 0.25,
+                        std::sin(0.3) * s + std::cos(0.3) * t + 0.5}};
+    const double u = moved["scale"][0].get<double>() * st[0];
+    const double v = moved["scale"][1].get<double>() * (1 - st[1]);
+    const double u_offset = moved["offset"][0];
+    const double v_offset = moved["offset"][1];
+    const Vec2d found{{std::cos(turn) * u + std::sin(turn) * v + u_offset,
+                       -std::sin(turn) * u + std::cos(turn) * v + v_offset}};
+    EXPECT_NEAR(found[0], wanted[0], 1e-12);
+    EXPECT_NEAR(1 - found[1], wanted[1], 1e-12);
+  }
+  EXPECT_EQ(gltf["samplers"][0], json({{"wrapS", 10497}, {"wrapT", 33648}}));
+  EXPECT_EQ(gltf["extensionsUsed"], json({"KHR_texture_transform"}));
+}
+
 TEST(WriteGlb, WhatDoesNotTurnHasNoChannelForIt) {
   const bake::PoseRecording motion = lift();
   const json gltf = checked_json(write_glb(one_body(1), {.motion = &motion}));

@@ -20,6 +20,7 @@
 #include "tenon/view/round_meshes.h"
 #include "tenon/view/surfaces.h"
 #include "tenon/view/usd_mesh.h"
+#include "tenon/view/view_camera.h"
 
 namespace tenon::view {
 namespace {
@@ -147,6 +148,9 @@ class DrawnShapes {
       if (prim.is_a("Gprim") && is_seen_purpose(place.purpose)) {
         draw(place, world);
       }
+      if (prim.is_a("Camera") && place.nesting == 0) {
+        add_camera(place, world);
+      }
     }
     const std::vector<stage::Prim> children = prim.children();
     for (auto child = children.rbegin(); child != children.rend(); ++child) {
@@ -196,10 +200,28 @@ class DrawnShapes {
     }
   }
 
-  void draw(const SeenPlace& place, const Mat4d& world) {
+  /// The matrix to metres in the frame of the body that carries a place, or in the world.
+  Mat4d in_frame_of(const SeenPlace& place, const Mat4d& world) const {
     const double unit = scene_.meters_per_unit;
     const Pose frame = place.body ? scene_.bodies[*place.body].pose : Pose{};
-    const Mat4d in_frame = world * scale_matrix({{unit, unit, unit}}) * inverse(pose_matrix(frame));
+    return world * scale_matrix({{unit, unit, unit}}) * inverse(pose_matrix(frame));
+  }
+
+  void add_camera(const SeenPlace& place, const Mat4d& world) {
+    if (view_.cameras.size() >= options_.limits.cameras) {
+      note(place.path, "there are more cameras than can be listed");
+      return;
+    }
+    auto camera = read_camera(place.prim, time_, in_frame_of(place, world), place.body);
+    if (camera) {
+      view_.cameras.push_back(*std::move(camera));
+    } else {
+      note(place.path, camera.error().message());
+    }
+  }
+
+  void draw(const SeenPlace& place, const Mat4d& world) {
+    const Mat4d in_frame = in_frame_of(place, world);
     std::optional<Placement> at = placement_of(in_frame);
     Pieces made;
     if (!at) {  // points of its own

@@ -19,6 +19,7 @@ struct ViewLimits {
   std::size_t corners = 60'000'000;       ///< of triangles, of meshes that are kept
   std::size_t image_bytes = 134'217'728;  ///< of all images
   std::size_t pairs = 100'000;            ///< of bodies that do not touch
+  std::size_t cameras = 100;              ///< that are listed
 };
 
 struct ViewOptions {
@@ -30,8 +31,8 @@ struct ViewOptions {
 };
 
 /// What one sees of `stage`, at the start, by the bodies of `scene`, which is read from it: gprims
-/// of purpose default and render that are visible, instances of point instancers among them. Never
-/// fails: what cannot be drawn is in `notes`.
+/// of purpose default and render that are visible, instances of point instancers among them, and
+/// cameras with perspective. Never fails: what cannot be drawn is in `notes`.
 ViewScene make_view(const stage::Stage& stage, const scene::PhysicsScene& scene,
                     const ViewOptions& options);
 

@@ -28,11 +28,14 @@ ViewScene seen(const std::string& contents, const ViewOptions& options = {}) {
     ADD_FAILURE() << layer.error().to_string();
     return {};
   }
+  stage::StageOptions found_assets;
+  found_assets.resolve_asset = [](const std::string& asset, const layer::Layer&) { return asset; };
   const auto stage = stage::Stage::open(
       std::make_shared<layer::Layer>(std::move(*layer)), nullptr,
       [](const std::string& asset, const layer::Layer&) -> Result<layer::LayerPtr> {
         return Error(ErrorCode::NotFound, "none").in_file(asset);
-      });
+      },
+      std::move(found_assets));
   return make_view(*stage, physics::read_physics(*stage, {}, findings), options);
 }
 
@@ -142,6 +145,82 @@ TEST(MakeView, ColoursComeFromTheSurfaceElseFromTheDisplayColour) {
   ASSERT_TRUE(view.shapes[1].material);
   EXPECT_EQ(view.materials[*view.shapes[1].material].color, (Vec3d{{1, 0, 0}}));
   EXPECT_FALSE(view.shapes[2].material);
+}
+
+/// A cube with a material whose opacity is an output of an image.
+std::string cutout(const std::string& of_surface, const std::string& of_image,
+                   const std::string& of_transform) {
+  return "def Material \"m\" {\ntoken outputs:surface.connect = </r/m/s.outputs:surface>\n"
+         "def Shader \"s\" {\nuniform token info:id = \"UsdPreviewSurface\"\n" +
+         of_surface +
+         "token outputs:surface\n}\n"
+         "def Shader \"t\" {\nuniform token info:id = \"UsdUVTexture\"\n"
+         "asset inputs:file = @mask.png@\nfloat2 inputs:st.connect = </r/m/x.outputs:result>\n" +
+         of_image +
+         "float3 outputs:rgb\nfloat outputs:r\nfloat outputs:a\n}\n"
+         "def Shader \"x\" {\nuniform token info:id = \"UsdTransform2d\"\n" +
+         of_transform +
+         "float2 outputs:result\n}\n}\n"
+         "def Cube \"a\" (prepend apiSchemas = [\"MaterialBindingAPI\"]) {\n"
+         "rel material:binding = </r/m>\n}\n";
+}
+
+ViewOptions with_any_image() {
+  ViewOptions options;
+  options.read_image = [](const std::string&) {
+    return std::optional<std::string>("\x89PNG\r\n\x1a\n");
+  };
+  return options;
+}
+
+TEST(MakeView, OpacityOfAnImageHasItsChannelScaleAndBias) {
+  const ViewScene view = seen(cutout("float inputs:opacity.connect = </r/m/t.outputs:r>\n"
+                                     "float inputs:opacityThreshold = 0.5\n",
+                                     "float4 inputs:scale = (-1, 1, 1, 1)\n"
+                                     "float4 inputs:bias = (1, 0, 0, 0)\n",
+                                     ""),
+                              with_any_image());
+  ASSERT_EQ(view.materials.size(), 1u);
+  const ViewMaterial& look = view.materials[0];
+  EXPECT_DOUBLE_EQ(look.cutout, 0.5);
+  ASSERT_TRUE(look.opacity_texture);
+  EXPECT_EQ(look.opacity_texture->channel, 0u);
+  EXPECT_DOUBLE_EQ(look.opacity_texture->factor, -1);
+  EXPECT_DOUBLE_EQ(look.opacity_texture->add, 1);
+  EXPECT_EQ(view.images.size(), 1u);
+}
+
+TEST(MakeView, ImagesAreScaledTurnedMovedAndWrapped) {
+  const ViewScene view = seen(cutout("color3f inputs:diffuseColor.connect = </r/m/t.outputs:rgb>\n",
+                                     "token inputs:wrapS = \"mirror\"\n"
+                                     "token inputs:wrapT = \"black\"\n",
+                                     "float2 inputs:scale = (3, 2)\nfloat inputs:rotation = 90\n"
+                                     "float2 inputs:translation = (0.25, 0.5)\n"),
+                              with_any_image());
+  ASSERT_EQ(view.materials.size(), 1u);
+  ASSERT_TRUE(view.materials[0].color_texture);
+  const ViewTexture& texture = *view.materials[0].color_texture;
+  EXPECT_EQ(texture.scale, (Vec2d{{3, 2}}));
+  EXPECT_EQ(texture.offset, (Vec2d{{0.25, 0.5}}));
+  EXPECT_NEAR(texture.turn, std::numbers::pi / 2, 1e-6);
+  EXPECT_EQ(texture.wrap_s, ViewWrap::Mirror);
+  EXPECT_EQ(texture.wrap_t, ViewWrap::Black);
+  EXPECT_TRUE(view.notes.empty());
+}
+
+TEST(MakeView, CamerasAreListedWithTheBodyThatCarriesThem) {
+  const ViewScene view = seen(body("def Camera \"eye\" {\n" + moved(0, 20, 0) +
+                                   "float focalLength = 10\nfloat horizontalAperture = 40\n"
+                                   "float verticalAperture = 20\n}\n") +
+                              "def Camera \"flat\" {\ntoken projection = \"orthographic\"\n}\n");
+  ASSERT_EQ(view.cameras.size(), 1u);
+  EXPECT_EQ(view.cameras[0].path.str(), "/r/b/eye");
+  EXPECT_EQ(view.cameras[0].body, 0u);
+  EXPECT_NEAR(view.cameras[0].pose.position[1], 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(view.cameras[0].half_width, 2);
+  EXPECT_DOUBLE_EQ(view.cameras[0].half_height, 1);
+  ASSERT_EQ(view.notes.size(), 1u);
+  EXPECT_EQ(view.notes[0].prim.str(), "/r/flat");
 }
 
 TEST(MakeView, AnMdlSurfaceHasItsConstantTimesItsTint) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -124,6 +125,15 @@ std::string_view mime_type_of(std::string_view bytes) {
                                                 : "";
 }
 
+/// Where nothing is said the image repeats, as simulators have it.
+ViewWrap wrap_of(const stage::Prim& texture, const char* name) {
+  const Token wrap = input<Token>(texture, name, {}).value_or(Token());
+  return wrap == "clamp"    ? ViewWrap::Clamp
+         : wrap == "mirror" ? ViewWrap::Mirror
+         : wrap == "black"  ? ViewWrap::Black
+                            : ViewWrap::Repeat;
+}
+
 Vec3d in_unit_range(Vec3d color) {
   for (double& part : color.v) {
     part = std::clamp(part, 0.0, 1.0);
@@ -175,7 +185,29 @@ void Surfaces::read_preview(const stage::Prim& shader, ViewMaterial& look) {
   read_preview_images(shader, look);
 }
 
+void Surfaces::read_opacity_image(const stage::Prim& shader, ViewMaterial& look) {
+  const auto image = image_of(shader, "inputs:opacity");
+  if (!image) {
+    return;
+  }
+  const std::size_t channel = std::string_view("rgba").find(image->output);
+  if (image->output.size() != 1 || channel == std::string_view::npos) {
+    note(shader.path(), "opacity is one of the outputs r, g, b and a of an image");
+    return;
+  }
+  if (const auto texture = texture_of(image->texture)) {
+    ViewOpacity& opacity = look.opacity_texture.emplace();
+    opacity.texture = *texture;
+    opacity.channel = channel;
+    const auto scale = input<Vec4f>(image->texture, "inputs:scale", time_);
+    const auto bias = input<Vec4f>(image->texture, "inputs:bias", time_);
+    opacity.factor = scale && is_finite((*scale)[channel]) ? (*scale)[channel] : 1.0f;
+    opacity.add = bias && is_finite((*bias)[channel]) ? (*bias)[channel] : 0.0f;
+  }
+}
+
 void Surfaces::read_preview_images(const stage::Prim& shader, ViewMaterial& look) {
+  read_opacity_image(shader, look);
   if (const auto image = image_of(shader, "inputs:diffuseColor")) {
     look.color_texture = texture_of(image->texture);
     const auto scale = input<Vec4f>(image->texture, "inputs:scale", time_);
@@ -242,16 +274,16 @@ std::optional<ViewTexture> Surfaces::texture_of(const stage::Prim& texture) {
   }
   ViewTexture result;
   result.image = *image;
-  result.clamped = texture.attribute("inputs:wrapS").get_as<Token>() == Token("clamp");
+  result.wrap_s = wrap_of(texture, "inputs:wrapS");
+  result.wrap_t = wrap_of(texture, "inputs:wrapT");
   const InputSource mapping = source_of_input(texture, "inputs:st");
   if (has_id(mapping.prim, "UsdTransform2d")) {
     const auto scale = input<Vec2f>(mapping.prim, "inputs:scale", time_);
     const auto offset = input<Vec2f>(mapping.prim, "inputs:translation", time_);
     result.scale = scale && is_finite(*scale) ? to_double(*scale) : result.scale;
     result.offset = offset && is_finite(*offset) ? to_double(*offset) : result.offset;
-    if (input<float>(mapping.prim, "inputs:rotation", time_).value_or(0.0f) != 0) {
-      note(mapping.prim.path(), "the turn of the image is not shown");
-    }
+    const auto degrees = input<float>(mapping.prim, "inputs:rotation", time_);
+    result.turn = degrees && is_finite(*degrees) ? *degrees * std::numbers::pi / 180 : 0;
   }
   return result;
 }

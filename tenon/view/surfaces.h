@@ -31,6 +31,7 @@ class Surfaces {
   void read_preview(const stage::Prim& shader, ViewMaterial& look);
   void read_mdl(const stage::Prim& shader, ViewMaterial& look);
   void read_preview_images(const stage::Prim& shader, ViewMaterial& look);
+  void read_opacity_image(const stage::Prim& shader, ViewMaterial& look);
   std::optional<ViewTexture> texture_of(const stage::Prim& texture);
   std::optional<Index> image_at(const std::string& path, Path prim);
   void note(Path prim, std::string what);

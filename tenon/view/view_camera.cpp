@@ -41,7 +41,27 @@ Result<ViewCamera> find_camera(const stage::Stage& stage, const scene::PhysicsSc
         .with_rule("view.camera")
         .with_fix("tenon tree lists the prims of an asset");
   }
+  std::optional<Index> body;
+  Pose frame;
+  for (Path above = place; above.is_prim() && !body; above = above.parent()) {
+    for (std::size_t i = 0; i < scene.bodies.size() && !body; ++i) {
+      if (scene.bodies[i].path == above) {
+        body = static_cast<Index>(i);
+        frame = scene.bodies[i].pose;
+      }
+    }
+  }
   const stage::Time time(scene.start_time_code);
+  const double unit = scene.meters_per_unit;
+  return read_camera(prim, time,
+                     stage::local_to_world(prim, time) * scale_matrix({{unit, unit, unit}}) *
+                         inverse(pose_matrix(frame)),
+                     body);
+}
+
+Result<ViewCamera> read_camera(const stage::Prim& prim, stage::Time time, const Mat4d& in_frame,
+                               std::optional<Index> body) {
+  const std::string path = prim.path().str();
   const auto number = [&](const char* name) -> double {
     return prim.attribute(Token(name)).get_as<float>(time).value_or(0);
   };
@@ -54,6 +74,8 @@ Result<ViewCamera> find_camera(const stage::Stage& stage, const scene::PhysicsSc
     return no_view_from(path, "its projection is orthographic");
   }
   ViewCamera camera;
+  camera.path = prim.path();
+  camera.body = body;
   const double focal = number("focalLength");
   camera.half_width = number("horizontalAperture") / 2 / focal;
   camera.half_height = number("verticalAperture") / 2 / focal;
@@ -61,19 +83,7 @@ Result<ViewCamera> find_camera(const stage::Stage& stage, const scene::PhysicsSc
       !is_finite(camera.half_width) || !is_finite(camera.half_height)) {
     return no_view_from(path, "its focal length and apertures have to be more than zero");
   }
-  Pose frame;
-  for (Path above = place; above.is_prim() && !camera.body; above = above.parent()) {
-    for (std::size_t i = 0; i < scene.bodies.size() && !camera.body; ++i) {
-      if (scene.bodies[i].path == above) {
-        camera.body = static_cast<Index>(i);
-        frame = scene.bodies[i].pose;
-      }
-    }
-  }
-  const double unit = scene.meters_per_unit;
-  const std::optional<Pose> pose =
-      pose_of(stage::local_to_world(prim, time) * scale_matrix({{unit, unit, unit}}) *
-              inverse(pose_matrix(frame)));
+  const std::optional<Pose> pose = pose_of(in_frame);
   if (!pose) {
     return no_view_from(path, "its place is not finite");
   }

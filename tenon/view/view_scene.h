@@ -30,12 +30,28 @@ struct ViewImage {
   std::string bytes;
 };
 
-/// An image of a material. At scale * (u, v) + offset, where (0, 0) is the lower left corner.
+/// What an image is beyond its edges.
+enum class ViewWrap : std::uint8_t { Repeat, Clamp, Mirror, Black };
+
+/// An image of a material. It is read at turn * (scale * (u, v)) + offset; (0, 0) is its lower left
+/// corner.
 struct ViewTexture {
   Index image = 0;  ///< into ViewScene::images
   Vec2d scale{{1, 1}};
+  double turn = 0;  ///< counter-clockwise [rad]
   Vec2d offset;
-  bool clamped = false;  ///< else it repeats
+  ViewWrap wrap_s = ViewWrap::Repeat;
+  ViewWrap wrap_t = ViewWrap::Repeat;
+
+  friend bool operator==(const ViewTexture&, const ViewTexture&) = default;
+};
+
+/// Opacity of an image: factor * channel + add, clamped between 0 and 1.
+struct ViewOpacity {
+  ViewTexture texture;
+  std::size_t channel = 3;  ///< of red, green, blue, alpha
+  double factor = 1;
+  double add = 0;
 };
 
 /// A surface, metallic and rough as UsdPreviewSurface and glTF have it. Colours are linear. The
@@ -49,6 +65,7 @@ struct ViewMaterial {
   Vec3d emission;
   double cutout = 0;  ///< opacityThreshold: above 0 a point is seen or not
   std::optional<ViewTexture> color_texture;
+  std::optional<ViewOpacity> opacity_texture;  ///< in place of `opacity`
   std::optional<ViewTexture> emission_texture;
   std::optional<ViewTexture> normal_texture;
   std::optional<ViewTexture> surface_texture;    ///< roughness in green, metallic in blue
@@ -137,6 +154,15 @@ struct ViewArticulation {
   std::vector<Index> joints;
 };
 
+/// A UsdGeomCamera with perspective, at the start. It looks along its -Z, +Y is up.
+struct ViewCamera {
+  Path path;
+  std::optional<Index> body;  ///< that carries it, into ViewScene::bodies; none: it stands still
+  Pose pose;                  ///< in the body's frame or the world [m]
+  double half_width = 0;      ///< tangents of half the angles that it sees, sideways
+  double half_height = 0;     ///< and upward
+};
+
 /// What was skipped so that the whole can be shown, as a sentence.
 struct ViewNote {
   Path prim;  ///< empty: of the whole
@@ -154,6 +180,7 @@ struct ViewScene {
   std::vector<ViewShape> collider_shapes;  ///< what is touched; their meshes are in `meshes`, too
   std::vector<ViewJoint> joints;
   std::vector<ViewArticulation> articulations;
+  std::vector<ViewCamera> cameras;
   /// Pairs of bodies none of whose colliders touch, first < second; kWorld for what stands still.
   std::vector<std::pair<Index, Index>> filtered_pairs;
   std::vector<ViewNote> notes;

@@ -156,8 +156,11 @@ export class Stage {
     return file;
   }
 
-  /** An empty page in a window of its own. `quiet: false` allows it to complain. */
-  async page({ theme = "light", quiet = true, ...more } = {}) {
+  /**
+   * An empty page in a window of its own. `quiet: false` allows it to complain, `tour: true` is a
+   * browser that has never seen the page.
+   */
+  async page({ theme = "light", quiet = true, tour = false, ...more } = {}) {
     const context = await this.browser.newContext({
       viewport: size,
       colorScheme: theme,
@@ -166,6 +169,15 @@ export class Stage {
     });
     this.ending.push(() => context.close());
     context.setDefaultTimeout(patience);
+    if (!tour) {
+      await context.addInitScript(() => {
+        try {
+          localStorage.setItem("tenon-tour", "dismissed");
+        } catch {
+          // about:blank and files have no storage
+        }
+      });
+    }
     const page = await context.newPage();
     page.on("console", (message) => quiet && this.faults.push(`console: ${message.text()}`));
     page.on("pageerror", (error) => this.faults.push(`error: ${error.message}`));

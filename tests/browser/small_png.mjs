@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of pages for the documentation: PNG with a palette, which is a third of the bytes.
+// Pictures of pages for the documentation: PNG with a palette, which is a third of the bytes; and
+// small images for surfaces.
 import { crc32, deflateSync } from "node:zlib";
 
 const colours = 255;
@@ -61,6 +62,23 @@ function chunk(name, data) {
   return whole;
 }
 
+const signature = Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]);
+
+/** A PNG of pixels: [red, green, blue, alpha] of each, row by row from the top. */
+export function rgbaPng(width, height, pixels) {
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 6, 0, 0, 0], 8);
+  const rows = Array.from({ length: height }, (_, y) => [0, ...pixels.slice(y * width, (y + 1) * width).flat()]);
+  return Buffer.concat([
+    signature,
+    chunk("IHDR", head),
+    chunk("IDAT", deflateSync(Buffer.from(rows.flat()))),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
+}
+
 /** A PNG with few colours of one with many. */
 export async function smallPng(page, png) {
   const picture = await decoded(page, png);
@@ -70,7 +88,7 @@ export async function smallPng(page, png) {
   head.writeUInt32BE(picture.height, 4);
   head.set([8, 3, 0, 0, 0], 8);
   return Buffer.concat([
-    Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]),
+    signature,
     chunk("IHDR", head),
     chunk("PLTE", Buffer.from(palette.flat())),
     chunk("IDAT", deflateSync(rows, { level: 9 })),

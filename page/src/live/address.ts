@@ -95,6 +95,8 @@ export class Address {
       viewer.lookAs(new THREE.Vector3(...numbers.slice(0, 3)), new THREE.Vector3(...numbers.slice(3)));
     }
     viewer.setOrthographic(fields.get("projection") === "orthographic");
+    const through = viewer.info.cameras.find((one) => one.path === fields.get("through"));
+    through && viewer.lookThrough(through);
     if (fields.has("plots")) {
       this.plots.choose(listOf(fields.get("plots")));
     }
@@ -148,6 +150,7 @@ export class Address {
     put("tab", [panel.tab]);
     put("camera", [...camera.position.toArray(), ...controls.target.toArray()].map(digits));
     put("projection", eye.orthographic ? ["orthographic"] : []);
+    put("through", eye.through ? [eye.through.path] : []);
     const time = this.history.shown ?? (this.playing ? 0 : this.history.last);
     put("time", time > 0 ? [digits(time)] : []);
     put("show", more);

@@ -29,6 +29,7 @@ import { Signals } from "./signals";
 import { Standing } from "./standing";
 import { Timeline } from "./timeline";
 import { Tools } from "./tools";
+import { Tour } from "./tour";
 import { Values } from "./values";
 
 class Picture {
@@ -122,6 +123,7 @@ function main(): void {
   const panel = new Panel(document.body, (place) => new Viewer(place));
   const address = new URL("ws", location.href);
   address.protocol = location.protocol.replace("http", "ws");
+  new Tour(panel);
   const session: Session = { panel, connection: new Connection(address.href), messages: new Messages() };
   const { connection, messages } = session;
   const history = addTime(session);

@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where one looks from: along the asset's axes, without perspective, and beside a body.
+// Where one looks from: along the asset's axes, without perspective, beside a body, and through the
+// asset's own cameras.
 import { type Side, sides } from "../scene/eye";
 import type { Viewer } from "../scene/viewer";
-import { nameOf } from "./dom";
+import { h, nameOf } from "./dom";
 import type { Shortcut } from "./keys";
 import { command, menu, toggle } from "./menu";
 
 export class CameraMenu {
   readonly element: HTMLElement;
+  /** Said over the picture. */
+  readonly note = h("p", { class: "camera-note", role: "status", hidden: true });
+  /** The asset's cameras. */
+  private readonly own = h("div", { class: "menu-part", role: "group", "aria-label": "Cameras of the asset" });
   private readonly flat = toggle("Orthographic", "0", (on) => this.viewer.setOrthographic(on));
   private readonly follow = toggle("Follow the selected body", "n", (on) => this.setFollowing(on));
 
@@ -22,7 +27,9 @@ export class CameraMenu {
       ...(Object.keys(sides) as Side[]).map(from),
       this.flat.element,
       this.follow.element,
+      this.own,
     );
+    viewer.addEventListener("load", () => this.list());
     viewer.addEventListener("camera", () => this.update());
     viewer.addEventListener("select", () => this.update());
     this.update();
@@ -45,6 +52,21 @@ export class CameraMenu {
     ];
   }
 
+  private list(): void {
+    const { cameras } = this.viewer.info;
+    const rows = cameras.map((camera) => {
+      const alike = cameras.filter(({ path }) => nameOf(path) === nameOf(camera.path));
+      const row = command(alike.length > 1 ? camera.path : nameOf(camera.path), "", () =>
+        this.viewer.lookThrough(camera),
+      );
+      row.title = camera.path;
+      return row;
+    });
+    this.own.hidden = rows.length === 0;
+    this.own.replaceChildren(h("strong", {}, "Cameras of the asset"), ...rows);
+    this.update();
+  }
+
   private setFollowing(on: boolean): void {
     const { viewer } = this;
     const body = viewer.info.bodies.find((one) => one.path === viewer.selected);
@@ -54,6 +76,13 @@ export class CameraMenu {
   private update(): void {
     const { eye, followed, info, selected } = this.viewer;
     this.flat.box.checked = eye.orthographic;
+    const { through } = eye;
+    for (const row of this.own.querySelectorAll("button")) {
+      row.setAttribute("aria-pressed", String(row.title === through?.path));
+    }
+    this.note.hidden = !through;
+    const leave = h("button", { type: "button", onclick: () => this.viewer.lookThrough(null) }, "Leave it");
+    this.note.replaceChildren(...(through ? [`Seen through ${nameOf(through.path)} `, leave] : []));
     this.follow.box.checked = followed !== "";
     this.follow.box.disabled = followed === "" && !info.bodies.some((one) => one.path === selected);
     this.follow.element.title = followed ? `The camera follows ${nameOf(followed)}` : "";

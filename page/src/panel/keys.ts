@@ -82,6 +82,15 @@ export class Keys {
     this.shortcuts.push(...shortcuts);
   }
 
+  /** A button beside the list of keys. */
+  addHelp(label: string, act: () => void): void {
+    const begin = () => {
+      this.help.close();
+      act();
+    };
+    this.help.lastElementChild!.before(h("button", { type: "button", onclick: begin }, label), " ");
+  }
+
   showHelp(): void {
     const there = this.shortcuts.filter((one) => one.there?.() ?? true);
     this.rows.replaceChildren(

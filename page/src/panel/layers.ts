@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is shown: a switch for each kind of thing, with a key.
+import type { NoteInfo } from "../scene/info";
 import type { OverlayName } from "../scene/overlays";
 import type { Viewer } from "../scene/viewer";
 import { h } from "./dom";
@@ -50,12 +51,23 @@ const layers: Layer[] = [
   { ...overlay("contacts", "Contacts and their forces", "o"), special: true },
   {
     name: "grid",
-    label: "Ground grid",
+    label: "Ground grid and shadow",
     key: "g",
     shown: true,
     set: (viewer, visible) => viewer.showGrid(visible),
   },
 ];
+
+/** What is not drawn, and why; equal reasons together. */
+function notDrawn(notes: readonly NoteInfo[]): HTMLElement {
+  const prims = new Map<string, string[]>();
+  notes.forEach(({ prim, what }) => prims.set(what, [...(prims.get(what) ?? []), prim]));
+  const rows = [...prims].map(([what, of]) => {
+    const more = of.length > 1 ? ` and ${of.length - 1} more` : "";
+    return h("li", {}, `${what}: `, h("code", {}, of[0] || "the asset"), more);
+  });
+  return h("details", {}, h("summary", {}, `Not drawn as the asset says (${notes.length})`), h("ul", {}, ...rows));
+}
 
 export class Layers {
   readonly element = h("fieldset", { class: "layers" }, h("legend", {}, "What is shown"));
@@ -63,6 +75,8 @@ export class Layers {
   /** Called after a switch. */
   onChange: () => void = () => {};
   private begun = false;
+  /** What is not drawn. */
+  private readonly left = h("div");
   private readonly rows = new Map<string, HTMLElement>();
 
   constructor(private readonly viewer: Viewer) {
@@ -84,6 +98,7 @@ export class Layers {
       this.rows.set(layer.name, row);
       this.element.append(row);
     }
+    this.element.append(this.left);
     viewer.addEventListener("load", () => this.begin());
   }
 
@@ -95,6 +110,8 @@ export class Layers {
       }
     }
     this.begun = true;
+    const { notes } = this.viewer.info;
+    this.left.replaceChildren(...(notes.length > 0 ? [notDrawn(notes)] : []));
     this.applyAll();
   }
 

@@ -68,7 +68,7 @@ export class Panel {
     this.parts = new PartsMenu(this.viewer);
     this.measure = new Measure(this.viewer);
     menus.append(this.camera.element, this.parts.element, this.measure.button);
-    place.append(h("div", { class: "notes" }, this.parts.note, this.measure.note));
+    place.append(h("div", { class: "notes" }, this.camera.note, this.parts.note, this.measure.note));
     this.foot.append(this.timeBar.element);
     this.addTab("Selection", this.inspector.element);
     this.addTab("Show", this.layers.element);

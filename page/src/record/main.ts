@@ -17,7 +17,7 @@ import * as THREE from "three";
 import type { Panel } from "../panel/panel";
 import { Layers } from "../panel/layers";
 import { Viewer } from "../scene/viewer";
-import type { Film, FixedCamera, Orbit, Outcome, Settings } from "./settings";
+import type { Film, Orbit, Outcome, Settings } from "./settings";
 
 /** Drawn twice as large and made smaller, so that edges are smooth. */
 const oversampling = 2;
@@ -101,12 +101,12 @@ class Recording {
       motion.playing = false;
       motion.seek(time);
       motion.apply();
-      this.viewer.overlays.follow();
+      this.viewer.moved();
       this.viewer.dispatchEvent(new Event("time"));
     }
     this.viewer.scene.updateMatrixWorld(true);
     if (this.settings.camera) {
-      this.lookFrom(this.settings.camera);
+      this.viewer.lookThrough({ path: "", ...this.settings.camera });
     } else if (this.settings.orbit) {
       this.orbit(this.settings.orbit, turn);
     }
@@ -271,27 +271,6 @@ class Recording {
       distance = Math.max(distance, seen.z + reach + sideways / room);
     }
     return distance;
-  }
-
-  private lookFrom(camera: FixedCamera): void {
-    const carrier =
-      camera.body === null ? this.viewer.root : (this.viewer.bodies[camera.body] ?? this.viewer.root);
-    const [x, y, z, qx, qy, qz, qw] = camera.pose;
-    const place = new THREE.Matrix4().compose(
-      new THREE.Vector3(x, y, z),
-      new THREE.Quaternion(qx, qy, qz, qw),
-      new THREE.Vector3(1, 1, 1),
-    );
-    place.premultiply(carrier.matrixWorld);
-    const eye = this.viewer.camera;
-    place.decompose(eye.position, eye.quaternion, new THREE.Vector3());
-    // All that the camera sees is in the picture, whatever shape that has.
-    const halfHeight = Math.max(camera.halfHeight, camera.halfWidth / eye.aspect);
-    eye.fov = THREE.MathUtils.radToDeg(2 * Math.atan(halfHeight));
-    const away = eye.position.distanceTo(this.viewer.sphere.center);
-    eye.near = this.viewer.sphere.radius / 500;
-    eye.far = Math.max(away, this.viewer.sphere.radius) * 50;
-    eye.updateProjectionMatrix();
   }
 
   /** What pictures are drawn with in their own size. */

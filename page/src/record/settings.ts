@@ -3,7 +3,7 @@
 //
 // What the program tells the page of a recording, and the other way round: the JSON of
 // tenon/asset/viewing/record_page.cpp.
-import type { Pose } from "../scene/info";
+import type { CameraInfo } from "../scene/info";
 
 /** From an angle: degrees about the up axis from +X, and above the ground. */
 export interface Orbit {
@@ -17,16 +17,6 @@ export interface Orbit {
   turn: number;
 }
 
-/** A camera of the asset. It looks along its -Z, +Y is up. */
-export interface FixedCamera {
-  /** In the body that carries it, or in the world's axes. */
-  pose: Pose;
-  body: number | null;
-  /** Tangents of half the angles that it sees, sideways and upward. */
-  halfWidth: number;
-  halfHeight: number;
-}
-
 export interface Settings {
   width: number;
   height: number;
@@ -38,7 +28,8 @@ export interface Settings {
   /** A prim that is marked; "" is none. */
   select: string;
   orbit: Orbit | null;
-  camera: FixedCamera | null;
+  /** A camera of the asset. */
+  camera: Omit<CameraInfo, "path"> | null;
 }
 
 export interface Film {

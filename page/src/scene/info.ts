@@ -67,6 +67,18 @@ export interface ArticulationInfo {
   joints: number[];
 }
 
+/** A camera with perspective. It looks along its -Z, +Y is up. */
+export interface CameraInfo {
+  path: string;
+  /** That carries it; null: it stands still. */
+  body: number | null;
+  /** In the body's axes, or in the world's. */
+  pose: Pose;
+  /** Tangents of half the angles that it sees, sideways and upward. */
+  halfWidth: number;
+  halfHeight: number;
+}
+
 export interface NoteInfo {
   prim: string;
   what: string;
@@ -79,6 +91,7 @@ export interface SceneInfo {
   joints: JointInfo[];
   colliders: ColliderInfo[];
   articulations: ArticulationInfo[];
+  cameras: CameraInfo[];
   /** Pairs of bodies that do not touch; -1 for what stands still. */
   filteredPairs: [number, number][];
   notes: NoteInfo[];
@@ -91,6 +104,7 @@ export const noScene: SceneInfo = {
   joints: [],
   colliders: [],
   articulations: [],
+  cameras: [],
   filteredPairs: [],
   notes: [],
 };

@@ -18,13 +18,41 @@ function fromCamera(
 }
 
 /**
- * Key and rim light at the camera, and the sky, which is brighter than the ground. White stays just
- * below the brightest white where the key light and the sky meet, so that its form is seen; colours
- * are drawn as they are, without tone mapping, which would take the little that dark ones have.
+ * Key and rim light at the camera, and the sky, which is brighter than the ground. Where they meet
+ * white is a little brighter than a screen can show; `keepForm` brings it back.
  */
 export function addLights(scene: THREE.Scene, camera: THREE.Camera): THREE.DirectionalLight[] {
-  scene.add(new THREE.HemisphereLight(0xffffff, 0x8c929a, 1.4), camera);
-  return [fromCamera(camera, 1.75, [-0.6, 1, 1.1]), fromCamera(camera, 0.5, [0.9, 0.2, -0.6])];
+  scene.add(new THREE.HemisphereLight(0xffffff, 0x8c929a, 1.6), camera);
+  return [fromCamera(camera, 1.8, [-0.6, 1, 1.1]), fromCamera(camera, 0.5, [0.9, 0.2, -0.6])];
+}
+
+/** What is not as bright as this is drawn as it is [of the brightest white]. */
+const bright = 0.8;
+
+/** What a channel comes to whose colour's brightest channel is `peak`, for each unit of it. */
+export function keptShare(peak: number): number {
+  const over = Math.max(peak - bright, 0);
+  const room = 1 - bright;
+  return (peak - over + room * (1 - Math.exp(-over / room))) / Math.max(peak, 1e-4);
+}
+
+const noMapping = "vec3 CustomToneMapping( vec3 color ) { return color; }";
+/** `keptShare` for all channels, so that hues stay. */
+const mapping = `vec3 CustomToneMapping( vec3 color ) {
+  const float room = 1.0 - ${bright};
+  float peak = max( color.r, max( color.g, color.b ) );
+  float over = max( peak - ${bright}, 0.0 );
+  return color * ( peak - over + room * ( 1.0 - exp( - over / room ) ) ) / max( peak, 1e-4 );
+}`;
+
+/**
+ * Bright light is drawn less bright the brighter it is, so that white keeps its form and highlights
+ * their edge. Everything else is drawn as it is: mappings of films take the little that dark ones have.
+ */
+export function keepForm(renderer: Pick<THREE.WebGLRenderer, "toneMapping">): void {
+  const chunks = THREE.ShaderChunk as { tonemapping_pars_fragment: string };
+  chunks.tonemapping_pars_fragment = chunks.tonemapping_pars_fragment.replace(noMapping, mapping);
+  renderer.toneMapping = THREE.CustomToneMapping;
 }
 
 /**
@@ -43,12 +71,5 @@ const room = `
 `;
 const lightsOfMaps = "#include <lights_fragment_maps>";
 
-/** Lets a metal reflect the room; other materials stay as they are. */
-export function reflectRoom(material: THREE.Material): void {
-  if (material instanceof THREE.MeshStandardMaterial && material.metalness > 0) {
-    material.onBeforeCompile = (shader) => {
-      shader.fragmentShader = shader.fragmentShader.replace(lightsOfMaps, `${lightsOfMaps}${room}`);
-    };
-    material.customProgramCacheKey = () => "room";
-  }
-}
+/** What lets a metal reflect the room: a place in its shader, and what stands there then. */
+export const roomShader: [string, string] = [lightsOfMaps, `${lightsOfMaps}${room}`];

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How finely pictures are drawn while something moves: where they come too slowly, as software
-// graphics on a busy machine make them, with fewer pixels, and with all of them when it stands still.
+// graphics on a busy machine make them, with fewer pixels and without shadows, and with all of them
+// when it stands still.
 
 const slow = 1 / 14; // [s] from one picture to the next
 const patience = 4; // slow pictures in a row
@@ -26,9 +27,9 @@ export class Pace {
     }
   }
 
-  /** Whether a coarse picture is to be drawn again since nothing has moved for a while. */
-  restsAt(clock: number): boolean {
-    return this.share < 1 && clock - this.last > rest;
+  /** Whether a picture that lacks something is to be drawn again since nothing has moved for a while. */
+  restsAt(clock: number, unfinished = false): boolean {
+    return (this.share < 1 || unfinished) && clock - this.last > rest;
   }
 
   fine(): void {

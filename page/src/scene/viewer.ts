@@ -8,15 +8,18 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { Batches, batched } from "./batches";
-import { Eye, type Side, sides } from "./eye";
+import { Eye, type Side, sides, usualAngle } from "./eye";
 import { fitted } from "./framing";
 import { dispose, openGraphics, sizeOf } from "./graphics";
 import { gridLines } from "./grid";
-import { type BodyInfo, type NodeKind, type SceneInfo, noScene } from "./info";
-import { addLights, reflectRoom } from "./lights";
+import { GroundShadow } from "./ground_shadow";
+import { type BodyInfo, type CameraInfo, type NodeKind, type SceneInfo, noScene } from "./info";
+import { addLights, keepForm } from "./lights";
+import { Marks } from "./marks";
 import { Motion } from "./motion";
 import { Overlays, type OverlayName } from "./overlays";
 import { Pace } from "./pace";
+import { completeSurfaces } from "./surfaces";
 import { type Part, Visibility } from "./visibility";
 
 const themes = {
@@ -38,7 +41,7 @@ export interface ViewerOptions {
 
 export class Viewer extends EventTarget {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(35, 1, 0.001, 1000);
+  readonly camera = new THREE.PerspectiveCamera(usualAngle, 1, 0.001, 1000);
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
   readonly software: boolean;
@@ -64,8 +67,10 @@ export class Viewer extends EventTarget {
   /** What the view is fitted to: all that is drawn, but for grounds. */
   fitted: THREE.Object3D[] = [];
 
+  private readonly marks = new Marks();
   private readonly pace = new Pace();
   private readonly batches = new Batches(this.scene);
+  private readonly shadow = new GroundShadow();
   private readonly grid = new THREE.Group();
   private readonly kinds: Record<NodeKind, THREE.Object3D[]> = {
     world: [],
@@ -73,7 +78,7 @@ export class Viewer extends EventTarget {
     visual: [],
     collider: [],
   };
-  private readonly plain = new Map<THREE.Mesh, THREE.Material | THREE.Material[]>();
+  private readonly animated: boolean;
   private ratio = 1;
   private dirty = true;
   private sized = false;
@@ -86,6 +91,7 @@ export class Viewer extends EventTarget {
     { antialias, alpha = false, animated = true }: ViewerOptions = {},
   ) {
     super();
+    this.animated = animated;
     const graphics = openGraphics(antialias, sizeOf(container));
     this.software = graphics.software;
     this.renderer = new THREE.WebGLRenderer({
@@ -101,12 +107,15 @@ export class Viewer extends EventTarget {
     container.append(canvas);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => {
+      this.eye.leave(); // the mouse takes over
       this.invalidate();
       this.dispatchEvent(new Event("camera"));
     });
     this.eye = new Eye(this.camera, this.controls);
     addLights(this.scene, this.camera);
+    keepForm(this.renderer);
     this.scene.add(this.grid);
+    this.grid.add(this.shadow.mesh);
     this.setTheme("light");
     this.listenToPointer(canvas);
     new ResizeObserver(() => this.resize()).observe(container);
@@ -127,14 +136,12 @@ export class Viewer extends EventTarget {
     const loader = new GLTFLoader();
     loader.setMeshoptDecoder(MeshoptDecoder);
     const file = await loader.parseAsync(bytes, "");
+    await completeSurfaces(file);
     this.clear();
     this.scene.add(file.scene);
     this.root = file.scene.children[0] ?? file.scene;
     this.info = { ...noScene, ...(file.scene.userData.tenon as Partial<SceneInfo> | undefined) };
     file.scene.traverse((node) => {
-      if (node instanceof THREE.Mesh) {
-        [node.material as THREE.Material | THREE.Material[]].flat().forEach(reflectRoom);
-      }
       const kind = node.userData.kind as NodeKind | undefined;
       if (kind && kind in this.kinds) {
         this.kinds[kind].push(node);
@@ -147,6 +154,10 @@ export class Viewer extends EventTarget {
     this.motion = file.animations.length > 0 ? new Motion(file.scene, file.animations[0]!) : null;
     this.measure();
     this.makeGrid();
+    this.shadow.begin(this.fitted, this.sphere.radius);
+    const through = this.info.cameras.find(({ path }) => path === this.eye.through?.path);
+    through ? (this.eye.through = through) : this.eye.leave();
+    this.stand();
     if (!keepCamera) {
       this.frame();
     }
@@ -166,22 +177,40 @@ export class Viewer extends EventTarget {
       this.bodies[i]?.position.fromArray(frame, at);
       this.bodies[i]?.quaternion.fromArray(frame, at + 3);
     }
-    this.afterMotion();
+    this.moved();
     this.invalidate();
   }
 
   /** The camera goes along with a body; "" leaves it where it is. */
   follow(path: string): void {
     this.followed = path;
+    path && this.eye.leave();
     this.eye.moveWith(null);
-    this.afterMotion();
+    this.moved();
     this.dispatchEvent(new Event("camera"));
   }
 
-  private afterMotion(): void {
+  /** Looks through a camera of the asset, wherever that goes; null: no longer. */
+  lookThrough(camera: CameraInfo | null): void {
+    this.follow("");
+    camera ? (this.eye.orthographic = false) : this.eye.leave();
+    this.eye.through = camera;
+    this.stand();
+    this.invalidate();
+    this.dispatchEvent(new Event("camera"));
+  }
+
+  private stand(): void {
+    this.eye.stand(this.bodies[this.eye.through?.body ?? -1] ?? this.root, this.sphere);
+  }
+
+  /** After bodies were placed. */
+  moved(): void {
+    this.shadow.stale = true;
     this.overlays.follow();
     const body = this.bodies[this.info.bodies.findIndex((one) => one.path === this.followed)];
     this.eye.moveWith(body ? body.getWorldPosition(new THREE.Vector3()) : null);
+    this.stand();
     this.dispatchEvent(new Event("poses"));
   }
 
@@ -220,7 +249,7 @@ export class Viewer extends EventTarget {
   }
 
   private showSelection(): void {
-    this.unmark();
+    this.marks.clear();
     const marks = [
       [this.failed, failure] as const,
       ...this.selection().map((path) => [path, highlight] as const),
@@ -228,7 +257,7 @@ export class Viewer extends EventTarget {
     for (const [path, color] of marks) {
       const node = path ? this.nodeAt(path) : undefined;
       if (node) {
-        this.mark(node, color);
+        this.marks.add(node, color);
       }
     }
     this.overlays.selectionChanged();
@@ -246,8 +275,9 @@ export class Viewer extends EventTarget {
 
   /** Changes what is drawn of the parts; materials of the selection stay marked. */
   change(act: () => void): void {
-    this.unmark();
+    this.marks.clear();
     act();
+    this.shadow.stale = true;
     this.showSelection();
     this.dispatchEvent(new Event("visibility"));
   }
@@ -271,6 +301,7 @@ export class Viewer extends EventTarget {
 
   /** Looks at a prim, or at everything, from a direction: where one sees it best, unless said. */
   frame(path = "", from = new THREE.Vector3(1, 0.55, 1.1), zoom = 1): void {
+    this.eye.leave();
     const sphere = this.sphere.clone();
     const node = path ? this.nodeAt(path) : undefined;
     const box = node ? new THREE.Box3().setFromObject(node) : new THREE.Box3();
@@ -286,6 +317,7 @@ export class Viewer extends EventTarget {
 
   /** Looks from a place at another one, in glTF's axes [m]. */
   lookAs(place: THREE.Vector3, target: THREE.Vector3): void {
+    this.eye.leave();
     const distance = place.distanceTo(target);
     this.camera.position.copy(place);
     this.camera.near = distance / 500;
@@ -304,6 +336,7 @@ export class Viewer extends EventTarget {
   }
 
   setOrthographic(on: boolean): void {
+    on && this.eye.leave();
     this.eye.orthographic = on;
     this.invalidate();
     this.dispatchEvent(new Event("camera"));
@@ -330,6 +363,11 @@ export class Viewer extends EventTarget {
     this.drawAs(1);
   }
 
+  /** Whether there is time for the shadow. The first picture comes without. */
+  private get inTime(): boolean {
+    return this.pace.share === 1 && (this.frames > 0 || !this.animated);
+  }
+
   /** Until there is a scene only what is behind it, which costs next to nothing. */
   private drawNow(): void {
     this.dirty = false;
@@ -340,6 +378,7 @@ export class Viewer extends EventTarget {
     }
     this.overlays.refresh();
     this.batches.update(this.camera.position);
+    this.shadow.update(this.renderer, this.inTime);
     this.renderer.render(this.scene, this.eye.current(this.room));
     this.frames += 1;
   }
@@ -365,7 +404,7 @@ export class Viewer extends EventTarget {
   }
 
   private clear(): void {
-    this.unmark();
+    this.marks.clear();
     this.overlays.clear();
     this.batches.clear();
     this.root.traverse(dispose);
@@ -390,20 +429,21 @@ export class Viewer extends EventTarget {
     this.sized = true;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.stand();
     this.renderer.setSize(width, height);
     this.draw(); // at once, since the picture is empty now
   }
 
   private tick(seconds: number): void {
     if (this.motion?.advance(seconds)) {
-      this.afterMotion();
+      this.moved();
       this.dispatchEvent(new Event("time"));
       this.dirty = true;
     }
     if (this.dirty) {
-      this.software && this.pace.drawn(seconds);
+      this.pace.drawn(seconds);
       this.drawAs(this.pace.share);
-    } else if (this.pace.restsAt(seconds)) {
+    } else if (this.pace.restsAt(seconds, this.shadow.stale)) {
       this.draw();
     }
   }
@@ -475,8 +515,8 @@ export class Viewer extends EventTarget {
   /** Squares around the scene that fade away. Short lines: software clips long ones badly. */
   private makeGrid(): void {
     for (const child of [...this.grid.children]) {
-      this.grid.remove(child);
       if (child instanceof THREE.LineSegments) {
+        this.grid.remove(child);
         child.geometry.dispose();
         (child.material as THREE.Material).dispose();
       }
@@ -485,37 +525,6 @@ export class Viewer extends EventTarget {
     const lines = gridLines(step, themes[this.theme]);
     lines.userData.ofPage = true;
     this.grid.add(lines);
-  }
-
-  private mark(node: THREE.Object3D, color: THREE.Color): void {
-    node.traverse((part) => {
-      if (part instanceof THREE.Mesh && part.userData.ofPage === undefined && !this.plain.has(part)) {
-        this.plain.set(part, part.material);
-        const marked = (material: THREE.Material): THREE.Material => {
-          const copy = material.clone();
-          reflectRoom(copy);
-          if (copy instanceof THREE.MeshStandardMaterial) {
-            copy.emissive.copy(color);
-            copy.emissiveIntensity = 0.55;
-            copy.emissiveMap = null;
-          }
-          return copy;
-        };
-        part.material = Array.isArray(part.material)
-          ? part.material.map(marked)
-          : marked(part.material);
-      }
-    });
-  }
-
-  private unmark(): void {
-    for (const [mesh, material] of this.plain) {
-      for (const marked of [mesh.material].flat()) {
-        marked.dispose();
-      }
-      mesh.material = material;
-    }
-    this.plain.clear();
   }
 
   private listenToPointer(canvas: HTMLCanvasElement): void {

@@ -4,6 +4,7 @@
 // Which parts are drawn, and which let others show through. Paths are remembered, so that parts stay
 // hidden when the picture is read again.
 import * as THREE from "three";
+import { copyOf } from "./surfaces";
 
 type Kind = "visual" | "collider";
 
@@ -89,11 +90,10 @@ export class Visibility {
 }
 
 function asGlass(material: THREE.Material): THREE.Material {
-  const copy = material.clone();
-  copy.onBeforeCompile = material.onBeforeCompile;
-  copy.customProgramCacheKey = material.customProgramCacheKey;
+  const copy = copyOf(material);
   copy.transparent = true;
   copy.opacity = material.opacity * glass;
+  copy.alphaTest = material.alphaTest * glass;
   copy.depthWrite = false;
   return copy;
 }

@@ -126,6 +126,42 @@ export const tests = {
     return `${listed.length} keys`;
   },
 
+  async the_first_steps_are_shown_once(stage) {
+    const viewer = await stage.view(stage.path("examples/inspire_hand/inspire_hand.usda"));
+    const page = await stage.live(viewer, { tour: true });
+    const card = page.getByRole("region", { name: "First steps" });
+    const next = card.getByRole("button", { name: "Next" });
+    await card.getByText("1 of 5").waitFor();
+    await next.focus(); // all of it by keyboard
+    for (const step of [2, 3, 4, 5]) {
+      await page.keyboard.press("Enter");
+      await card.getByText(`${step} of 5`).waitFor();
+      hold((await page.locator(".toured").count()) === 1, `step ${step} frames nothing`);
+    }
+    await card.getByRole("button", { name: "Done" }).press("Enter");
+    await card.waitFor({ state: "hidden" });
+    hold((await page.locator(".toured").count()) === 0, "the frame stays");
+    const fresh = await page.context().newPage();
+    const hidden = async (where) => {
+      await fresh.goto(where);
+      await drawn(fresh);
+      hold(!(await fresh.getByRole("region", { name: "First steps" }).isVisible()), `shown again: ${where}`);
+    };
+    await hidden(viewer.url);
+    // Another run of the program has another port.
+    await hidden((await stage.view(stage.path("examples/inspire_hand/inspire_hand.usda"))).url);
+    await page.keyboard.press("?");
+    await page.getByRole("button", { name: "First steps" }).click();
+    await card.getByText("1 of 5").waitFor();
+    await page.keyboard.press("Escape");
+    await card.waitFor({ state: "hidden" });
+    // A link to a view, and a report, show what they are for.
+    const linked = await stage.page({ tour: true });
+    await linked.goto(`${viewer.url}#tab=Joints`);
+    await drawn(linked);
+    hold(!(await linked.getByRole("region", { name: "First steps" }).isVisible()), "shown over a link");
+  },
+
   async undo_and_redo_by_keys(stage) {
     const asset = written(stage, sceneOf(fast("box", 0, 0)));
     const before = readFileSync(asset, "utf8");

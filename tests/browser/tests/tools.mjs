@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tools of the page: parts that are hidden, shown alone and seen through, several selected, measuring,
-// a camera that follows a body and one without perspective, fields beside sliders, and the address.
+// a camera that follows a body, one without perspective and those of the asset, fields beside sliders,
+// and the address.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { ask, button, drawn, hold, listen, near, openTab, sceneOf, settled, until } from "../harness.mjs";
@@ -46,6 +47,24 @@ const wheel = sceneOf(`
         uniform token physics:axis = "Z"
         float drive:angular:physics:damping = 10
     }`);
+
+const camera = (name, at, more) => `
+        def Camera "${name}"
+        {
+            float focalLength = 20
+            float horizontalAperture = 40
+            float verticalAperture = 20
+            ${more}
+            double3 xformOp:translate = (${at})
+            float xformOp:rotateX = 90
+            uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
+        }`;
+
+/** A body with a camera 2 m before it, a camera that stands still, and one without perspective. */
+const cameras = sceneOf(`
+    def Xform "head" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+    {${cube("shape", "0, 0, 0", ' (prepend apiSchemas = ["PhysicsCollisionAPI"])')}${camera("eye", "0, -2, 0", "")}
+    }${camera("still", "1, -3, 0", "")}${camera("flat", "0, 0, 0", 'token projection = "orthographic"')}`);
 
 function written(stage, text) {
   const asset = join(stage.folder(), "scene.usda");
@@ -223,6 +242,41 @@ export const tests = {
     await ask(page, "step", { count: 50 });
     await settled(page);
     hold((await view(page, "v.camera.position.toArray().join()")) === camera, "it goes on following");
+  },
+
+  async the_cameras_of_the_asset_are_looked_through(stage) {
+    const asset = written(stage, cameras);
+    const page = await stage.live(await stage.view(asset));
+    await listen(page);
+    const at = (where) => view(where, "v.root.worldToLocal(v.camera.position.clone()).toArray()");
+    const half = (where) => view(where, "Math.tan(v.camera.fov * Math.PI / 360)");
+    await page.locator("summary", { hasText: "Camera" }).click();
+    const listed = await page.getByRole("group", { name: "Cameras of the asset" }).getByRole("button").allTextContents();
+    hold(listed.join() === "eye,still", `the menu lists ${listed}`);
+    await page.getByRole("button", { name: "eye", exact: true }).click();
+    (await at(page)).forEach((x, k) => near(x, [0, -2, 0][k], 1e-4, `axis ${k} of its place`));
+    // It sees 1 sideways and 0.5 upward, and all of that is in the picture.
+    near(await half(page), Math.max(0.5, 1 / (await view(page, "v.camera.aspect"))), 1e-4, "its angle");
+    hold(await page.getByText("Seen through eye").isVisible(), "nothing says through which camera");
+    await ask(page, "step", { count: 200 });
+    await settled(page);
+    const body = await view(page, "v.bodies[0].position.toArray()");
+    hold(body[2] < -0.1, `it has fallen to ${body[2]}`);
+    (await at(page)).forEach((x, k) => near(x, [0, -2, body[2]][k], 1e-4, `axis ${k} as it falls`));
+    await until(() => page.evaluate(() => location.hash.includes("through=/World/head/eye")), "the camera in the address");
+    const other = await stage.page();
+    await other.goto(page.url());
+    await drawn(other);
+    await until(() => view(other, "v.eye.through?.path === '/World/head/eye'"), "the camera of the address");
+    near(await half(other), await half(page), 1e-4, "the angle of the address");
+    // The mouse takes over.
+    const box = await page.locator(".picture canvas").boundingBox();
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 260, box.y + 220, { steps: 3 });
+    await page.mouse.up();
+    hold((await view(page, "v.eye.through")) === null, "it is still looked through");
+    near(await view(page, "v.camera.fov"), 35, 1e-6, "the usual angle");
   },
 
   async a_selected_joint_is_marked(stage) {
