@@ -70,6 +70,7 @@ DISK_USERS = {
     "tenon/mjcf/shapes/textures.cpp": "runs in the worker",
     "tenon/asset/updating/base_copy.cpp": "looks at what is to be written over",
     "tenon/asset/updating/update_asset.cpp": "looks at what is to be written over",
+    "tenon/settings/settings.cpp": "tells a link to nothing, which Files cannot, from nothing",
     "tenon/structure/write_folder.cpp": "writes",
     "tenon/structure/written_note.cpp": "looks at what is to be written over",
 }

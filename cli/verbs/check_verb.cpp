@@ -249,7 +249,8 @@ int run_check(const Globals& globals, const CheckArguments& options) {
 constexpr const char* kCheckFooter =
     "Errors give exit code 1, with --strict warnings too; infos show with -v.\n"
     "All variants of the default prim's set \"Physics\" are looked at; --physics V takes one.\n"
-    "Of a folder, the files that no other file in it uses as a layer are checked.\n"
+    "Of a folder, the files that no other file in it uses as a layer are checked; symbolic links\n"
+    "to folders are not followed.\n"
     "tenon.toml in a repository may skip rules (tenon help settings); --no-settings ignores it.\n\n"
     "Examples:\n"
     "  tenon check hand.usda\n"

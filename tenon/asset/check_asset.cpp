@@ -67,7 +67,7 @@ Result<Run> run_once(const std::string& path, const CheckOptions& options,
   run.found.variant = variant.empty() ? run.selection : variant;
   run.found.findings =
       check::check_stage(stage, opening.items(), options.rules, read_options(options.readings));
-  if (!options.profile.empty() && !is_simready_profile(options.profile)) {
+  if (!options.profile.empty() && !has_codes(options.profile)) {
     TENON_TRY(const structure::AssetFiles files, asset_files(path, options.open));
     add_findings(structure::check_files(files), options.rules, run.found.findings);
     add_findings(structure::check_variant(stage, run.found.variant), options.rules,
@@ -136,6 +136,28 @@ void give_payloads_to_assets(std::map<std::string, LayerUses>& uses) {
       }
     }
   }
+}
+
+/// What has the name of a layer in a folder or below it, also a pipe or a symbolic link to nothing:
+/// that it cannot be read is told.
+Result<std::vector<std::string>> usd_names_below(const bytes::Files& files,
+                                                 const std::string& folder) {
+  std::vector<std::string> found;
+  std::vector<std::string> pending{folder};
+  while (!pending.empty()) {
+    const std::string at = pending.back() + (pending.back().ends_with('/') ? "" : "/");
+    pending.pop_back();
+    TENON_TRY(const std::vector<bytes::FolderEntry> entries, files->list(at));
+    for (const bytes::FolderEntry& entry : entries) {
+      if (entry.kind == bytes::NameKind::Folder) {
+        pending.push_back(at + entry.name);
+      } else if (is_usd_file(entry.name)) {
+        found.push_back(at + entry.name);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 /// Files that nothing else names; of a cycle that nothing leads to, the first.
@@ -216,9 +238,9 @@ Result<CheckedAsset> check_asset(const std::string& path, const CheckOptions& op
     runs.push_back(std::move(first.found));
   }
   checked.findings = check::merge_variants(std::move(runs));
-  if (is_simready_profile(options.profile)) {
+  if (has_codes(options.profile)) {
     TENON_TRY(check::simready::Judgement judgement,
-              judge_simready(path, options.open, options.profile));
+              judge_by_codes(path, options.open, options.profile));
     for (check::Finding& finding : judgement.findings) {
       if (options.rules.takes(finding.diagnostic.rule)) {
         checked.findings.push_back(std::move(finding));
@@ -251,9 +273,8 @@ Result<std::vector<std::string>> root_assets(const std::string& path, const Open
   if (options.files->kind(path) != bytes::NameKind::Folder) {
     return std::vector<std::string>{path};
   }
-  TENON_TRY(std::vector<std::string> files,
-            bytes::files_below(options.files, bytes::absolute_file_path(path)));
-  std::erase_if(files, [](const std::string& file) { return !is_usd_file(file); });
+  TENON_TRY(const std::vector<std::string> files,
+            usd_names_below(options.files, bytes::absolute_file_path(path)));
   return roots_of(files, options);
 }
 

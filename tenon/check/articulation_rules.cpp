@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/scene/joint_forest.h"
@@ -109,15 +110,16 @@ void check_articulation_empty(const Subject& subject, Reporter& report) {
 
 // A mechanism without any drive moves by gravity alone.
 void check_articulation_passive(const Subject& subject, Reporter& report) {
+  const std::set<Path> actuated = actuated_joints(subject);
   for (const scene::Articulation& articulation : subject.scene.articulations) {
     std::size_t moving = 0;
     bool driven = false;
     for (const scene::Index i : articulation.joints) {
       const scene::Joint& joint = subject.scene.joints[i];
       moving += joint.kind == scene::JointKind::Fixed ? 0 : 1;
-      driven = driven || std::any_of(joint.drives.begin(), joint.drives.end(), [](const auto& d) {
-                 return d.stiffness != 0 || d.damping != 0;
-               });
+      driven = driven || actuated.contains(joint.path) ||
+               std::any_of(joint.drives.begin(), joint.drives.end(),
+                           [](const auto& d) { return d.stiffness != 0 || d.damping != 0; });
     }
     if (moving > 0 && !driven) {
       report.at(subject.stage.prim(articulation.path),

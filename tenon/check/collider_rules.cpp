@@ -78,7 +78,10 @@ Path instance_of(stage::Prim prim) {
 
 void check_overlap_at_start(const Subject& subject, Reporter& report) {
   const scene::PhysicsScene& scene = subject.scene;
-  auto overlaps = overlaps_at_start(scene, kMaxCounted);
+  auto overlaps = below_planes_at_start(scene, kMaxCounted);
+  const std::size_t of_planes = overlaps.size();
+  const auto others = overlaps_at_start(scene, kMaxCounted - of_planes);
+  overlaps.insert(overlaps.end(), others.begin(), others.end());
   const std::size_t found = overlaps.size();
   overlaps.resize(std::min(found, kMaxReports));
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
@@ -101,7 +104,9 @@ void check_overlap_at_start(const Subject& subject, Reporter& report) {
       }
     }
     report.at(prim, message,
-              "move them apart, or filter all such pairs with `tenon set ASSET --filter-overlaps`");
+              i < of_planes ? "move the body to the side of the plane's axis"
+                            : "move them apart, or filter all such pairs with `tenon set ASSET "
+                              "--filter-overlaps`");
   }
 }
 

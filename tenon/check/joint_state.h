@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
+
+#include "tenon/check/subject.h"
 #include "tenon/math/angle.h"
 #include "tenon/scene/physics_scene.h"
 #include "tenon/scene/start_coordinate.h"
 
 namespace tenon::check {
+
+/// Joints that actuators of MuJoCo's and Newton's schemas name.
+std::set<Path> actuated_joints(const Subject& subject);
 
 using scene::coordinate_from_poses;
 using scene::start_coordinate;

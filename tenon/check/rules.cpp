@@ -77,9 +77,14 @@ const std::vector<std::string>& known_engines() {
 }
 
 std::vector<std::string> known_profiles() {
-  return {"isaac-3.0",           "simready",      "simready@2026.8",
-          "simready-robot",      "simready-prop", "simready-robot@2026.8",
-          "simready-prop@2026.8"};
+  return {"isaac-3.0",
+          "simready",
+          "simready@2026.8",
+          "simready-robot",
+          "simready-prop",
+          "simready-robot@2026.8",
+          "simready-prop@2026.8",
+          "rep-0158"};
 }
 
 std::string_view current_id(std::string_view id) {

@@ -3,12 +3,14 @@
 //
 // Numbers that would be right in another unit: the gravity of the earth in metres where the stage
 // counts in centimetres, fractions of pi where degrees are meant. A number is suspect only where it
-// is round in the other unit and not in its own.
+// is round in the other unit and not in its own; a length where no mechanism is that large beside
+// its parts.
 #include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "tenon/check/extents.h"
 #include "tenon/check/joint_state.h"
 #include "tenon/check/subject.h"
 
@@ -18,6 +20,9 @@ namespace {
 constexpr double kEarth = 9.81;         ///< [m/s^2]
 constexpr double kNearEarth = 5e-3;     ///< relative; 9.8 and 9.80665 are earth, too
 constexpr double kNearFraction = 1e-3;  ///< relative; 3.14 and 1.57 are typed for pi and pi/2
+constexpr double kFarAnchor = 50;       ///< half diagonals of a body from its middle
+constexpr double kNearAnchor = 1;       ///< [m]; less is near whatever the body's size
+constexpr double kFarTravel = 300;      ///< half diagonals of the larger body
 constexpr std::array kLengthUnits{1.0, 0.01, 0.001};
 
 /// The unit of length in which `gravity` is that of the earth.
@@ -106,6 +111,46 @@ void check_radian_targets(const Subject& subject, Reporter& report) {
                       ": it looks like radians",
                   "author " + digits(*value * kDegreesPerRadian) + " if radians were meant");
       }
+    }
+  }
+}
+
+void check_far_anchor(const Subject& subject, Reporter& report) {
+  for (const scene::Joint& joint : subject.scene.joints) {
+    for (const auto& [body, frame] :
+         {std::pair(joint.body0, joint.frame0), std::pair(joint.body1, joint.frame1)}) {
+      const Extent extent = body && joint.enabled ? extent_of(subject, *body) : Extent{};
+      const double distance = length(frame.position - extent.middle());
+      if (extent.empty() || !(distance > kFarAnchor * extent.half_diagonal()) ||
+          !(distance > kNearAnchor)) {
+        continue;
+      }
+      report.at(subject.stage.prim(joint.path),
+                "the joint is " + digits(distance) + " m away from the body " +
+                    named(subject.scene.bodies[*body].path, RelatedRole::Body) +
+                    ", whose colliders reach " + digits(extent.half_diagonal()) + " m",
+                "correct the place or its unit: 1 mm is 0.001 m");
+      break;
+    }
+  }
+}
+
+void check_far_travel(const Subject& subject, Reporter& report) {
+  for (const scene::Joint& joint : subject.scene.joints) {
+    const double travel = joint.upper - joint.lower;
+    if (joint.kind != scene::JointKind::Prismatic || !std::isfinite(travel)) {
+      continue;
+    }
+    double reach = 0;
+    for (const auto& body : {joint.body0, joint.body1}) {
+      const Extent extent = body ? extent_of(subject, *body) : Extent{};
+      reach = extent.empty() ? reach : std::fmax(reach, extent.half_diagonal());
+    }
+    if (reach > 0 && travel > kFarTravel * reach) {
+      report.at(subject.stage.prim(joint.path), "physics:upperLimit",
+                "the joint travels " + digits(travel) + " m, and its bodies reach " +
+                    digits(reach) + " m: the limits look like another unit",
+                "author them in the stage's unit of length, or leave them open");
     }
   }
 }

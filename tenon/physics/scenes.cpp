@@ -77,9 +77,11 @@ std::optional<double> usable_step(const ReadState& state, const stage::Prim& pri
     return step;
   }
   state.report(prim, Severity::Warning, "scene.time-step",
-               "the scene asks for steps of " + shortest(step) + " s, more than " +
-                   std::to_string(limits::kStepsPerSecond) + " in a second (kStepsPerSecond); " +
-                   "the engine's own step is used",
+               "the scene asks for steps of " + shortest(step) + " s, " +
+                   (step > 0 ? "more than " + std::to_string(limits::kStepsPerSecond) +
+                                   " in a second (kStepsPerSecond)"
+                             : std::string("which lead nowhere")) +
+                   "; the engine's own step is used",
                "author a longer step");
   return std::nullopt;
 }
@@ -100,7 +102,7 @@ std::optional<double> read_time_step(const ReadState& state, const stage::Prim& 
   }
   if (roles.has(Api::MjcScene)) {
     const std::optional<double> step = values.authored_number(prim, state.tokens.mjc_time_step);
-    if (step && *step > 0 && std::isfinite(*step)) {
+    if (step && std::isfinite(*step)) {
       return usable_step(state, prim, *step);
     }
   }

@@ -133,6 +133,55 @@ def Xform "World" {apis}
         self.assertIn("has the component -0.1;", said)
         self.assertIn("minDistance 1.3 exceeds maxDistance 1.1;", said)
 
+    def test_actuators_of_vendors_count_as_motors(self):
+        two = box("A", "(0, 0, 1)") + box("B", "(1, 0, 1)") + hinge("J", '"NewtonJointAPI"', "")
+        root = '(prepend apiSchemas = ["PhysicsArticulationRootAPI"])'
+        self.write(two, apis=root)
+        self.assertEqual([d["rule"] for d in self.check()], ["articulation.passive"])
+        for kind, target, told in (("MjcActuator", "mjc:target", []),
+                                   ("NewtonActuator", "newton:targets", ["actuator.not-read"])):
+            self.write(two + f"""    def {kind} "Motor"
+    {{
+        rel {target} = </World/J>
+    }}
+""", apis=root)
+            with self.subTest(kind):
+                self.assertEqual([d["rule"] for d in self.check()], told)
+
+    def test_a_kinematic_root_is_no_error(self):
+        self.write(box("A", "(0, 0, 1)", "bool physics:kinematicEnabled = 1",
+                       ["PhysicsArticulationRootAPI"]) + box("B", "(1, 0, 1)")
+                   + hinge("J", '"NewtonJointAPI"', ""))
+        self.assertEqual([(d["rule"], d["severity"]) for d in self.check()],
+                         [("articulation.root-kinematic", "warning")])
+
+    def test_the_body_of_a_draft_is_named(self):
+        self.write(box("A", "(0, 0, 1)", "", ["PhysicsBodyAPI"]).replace(
+            '"PhysicsRigidBodyAPI", ', ""))
+        found = self.check()
+        self.assertEqual({d["rule"] for d in found}, {"stage.unknown-api", "body.none"})
+        self.assertIn('"PhysicsBodyAPI"', " ".join(d["message"] for d in found))
+
+    def test_what_starts_in_a_plane_overlaps_it(self):
+        floor = """    def Plane "Floor" (prepend apiSchemas = ["PhysicsCollisionAPI"])
+    {
+        uniform token axis = "Z"
+    }
+"""
+        for height, told in ((0.1, []), (0.05, ["collider.overlap-at-start"]),
+                             (-3, ["collider.overlap-at-start"])):
+            self.write(box("A", f"(0, 0, {height})") + floor)
+            with self.subTest(height):
+                self.assertEqual(self.found(), told)
+
+    def test_a_step_of_nothing_is_told(self):
+        for step in ("0", "-0.01"):
+            self.write(box("A", "(0, 0, 1)"), scene=f"uniform double mjc:option:timestep = {step}")
+            self.path.write_text(self.path.read_text().replace(
+                'def PhysicsScene "Scene"',
+                'def PhysicsScene "Scene" (prepend apiSchemas = ["MjcSceneAPI"])'))
+            self.assertEqual(self.found(), ["scene.time-step"])
+
     def portability(self, *options):
         return {(d["rule"], *d["engines"]) for d in self.check(*options) if d["engines"]}
 

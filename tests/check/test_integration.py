@@ -69,6 +69,22 @@ class Folders(Folder):
         self.assertIn("cannot be read", done.stderr)
 
 
+    def test_what_is_no_file_is_told(self):
+        self.put("good.usda", '#usda 1.0\ndef Xform "A" {}\n')
+        os.mkfifo(self.folder / "pipe.usda")
+        (self.folder / "gone.usda").symlink_to("nowhere.usda")
+        (self.folder / "ring.usda").symlink_to("ring.usda")
+        (self.folder / "endless.usda").symlink_to("/dev/zero")
+        (self.folder / "up").symlink_to(".")
+        done = self.run_words(TENON, "check", ".")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        for name, why in (("pipe", "not a regular file"), ("endless", "No such device"),
+                          ("gone", "what this symbolic link leads to: No such file"),
+                          ("ring", "Too many levels of symbolic links")):
+            self.assertRegex(done.stdout, f"{name}.usda: error: .*{why}")
+        self.assertIn("4 errors", done.stderr)
+
+
 class Sarif(Folder):
     def log_of(self, *arguments):
         done = self.run_words(TENON, "check", *arguments, "--sarif", "-")

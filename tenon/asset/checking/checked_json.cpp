@@ -6,6 +6,7 @@
 #include "tenon/asset/answers/edited_json.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/check/fixes.h"
+#include "tenon/check/rep0158/rep0158.h"
 #include "tenon/check/rule.h"
 #include "tenon/check/simready/requirement.h"
 
@@ -25,6 +26,13 @@ Json engines_json(const check::Rule& rule) {
   return names.empty() ? Json(nullptr) : names;
 }
 
+/// The requirement of a profile with codes whose findings have this rule; null for other rules.
+const check::simready::Requirement* requirement_of(std::string_view rule) {
+  const auto* found = check::simready::find_requirement(check::simready::requirements(), rule);
+  return found != nullptr ? found
+                          : check::simready::find_requirement(check::rep0158::requirements(), rule);
+}
+
 Json finding_json(const ReportedFinding& reported) {
   const check::Finding& finding = reported.finding;
   Json item = answers::diagnostic_json(finding.diagnostic);
@@ -35,7 +43,7 @@ Json finding_json(const ReportedFinding& reported) {
   item["autofix"] = finding.fix ? Json(finding.fix->what) : Json(nullptr);
   item["suggestedFix"] = finding.suggestion ? Json(finding.suggestion->what) : Json(nullptr);
   item["suppressed"] = reported.suppressed;
-  const auto* requirement = check::simready::find_requirement(finding.diagnostic.rule);
+  const auto* requirement = requirement_of(finding.diagnostic.rule);
   item["code"] = requirement == nullptr ? Json(nullptr) : Json(requirement->full_code());
   return item;
 }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the requirements ask of files is gathered here: all layers that the asset may use, whichever
-// variants are selected, found from layer to layer, with every asset path in them; the JSON file
-// beside the asset; headers of images. Stages are composed once for each runtime whose variant set
-// the default prim has, when a requirement asks for it.
+// Judges by the codes of SimReady and of REP-0158. What they ask of files is gathered here: all
+// layers that the asset may use, whichever variants are selected, found from layer to layer, with
+// every asset path in them; the JSON file beside the asset; headers of images. Stages are composed
+// once for each runtime whose variant set the default prim has, when a requirement asks for it.
 #include "tenon/asset/checking/judge_simready.h"
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "tenon/asset/checking/image_header.h"
 #include "tenon/base/limits/limits.h"
 #include "tenon/base/limits/profile_limits.h"
+#include "tenon/check/rep0158/rep0158.h"
 #include "tenon/formats/package/asset_paths.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/stage_sources.h"
@@ -27,6 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace simready = check::simready;
+
+constexpr const char* kRep0158 = "rep-0158";
 
 layer::Value value_of_json(const answers::Json& json, std::size_t depth);
 
@@ -77,7 +80,8 @@ void gather_files(const StageSources& sources, simready::JudgedAsset& asset) {
     formats::rename_assets(
         copy, [&](const std::string& path, formats::AssetUse use, Path spec) -> std::string {
           const auto found = sources.registry->resolver().resolve(path, from->identifier());
-          asset.named.push_back({from->identifier(), path, found ? *found : "", spec});
+          asset.named.push_back({from->identifier(), path, found ? *found : "", spec,
+                                 use == formats::AssetUse::Layer});
           if (found && use == formats::AssetUse::Layer && known.insert(*found).second) {
             if (auto layer = sources.registry->open(path, from.get())) {
               pending.push_back(*std::move(layer));
@@ -134,9 +138,12 @@ class RuntimeStages {
   RuntimeStages(std::string path, OpenOptions options)
       : path_(std::move(path)), options_(std::move(options)) {}
 
-  /// The asset as it opens, with every runtime disabled. Fails as tenon::open does.
-  Result<const simready::JudgedStage*> open() {
+  /// The asset as it opens, with every runtime disabled where `apart`. Fails as tenon::open does.
+  Result<const simready::JudgedStage*> open(bool apart) {
     TENON_TRY(stage::Stage stage, tenon::open(path_, options_));
+    if (!apart) {
+      return keep("", std::move(stage));
+    }
     const stage::Prim root = stage.default_prim();
     const std::vector<std::string> sets = root.variant_set_names();
     for (const std::string& runtime : simready::runtimes()) {
@@ -190,9 +197,11 @@ class RuntimeStages {
 
 }  // namespace
 
-bool is_simready_profile(const std::string& profile) { return profile.starts_with("simready"); }
+bool has_codes(const std::string& profile) {
+  return profile.starts_with("simready") || profile == kRep0158;
+}
 
-Result<simready::Judgement> judge_simready(const std::string& path, const OpenOptions& options,
+Result<simready::Judgement> judge_by_codes(const std::string& path, const OpenOptions& options,
                                            const std::string& profile) {
   TENON_TRY(const StageSources sources, open_sources(path, options));
   simready::JudgedAsset asset;
@@ -201,15 +210,18 @@ Result<simready::Judgement> judge_simready(const std::string& path, const OpenOp
   gather_files(sources, asset);
   read_sidecar(options.files, asset);
   RuntimeStages stages(path, options);
-  TENON_TRY(const simready::JudgedStage* neutral, stages.open());
+  TENON_TRY(const simready::JudgedStage* neutral, stages.open(profile != kRep0158));
   asset.stage_of = [&stages](std::string_view runtime) { return stages.of(runtime); };
+  if (profile == kRep0158) {
+    return simready::judge(asset, check::rep0158::requirements(), simready::Kind::Robot);
+  }
   simready::Kind kind = simready::kind_of(*neutral);
   if (profile.starts_with("simready-robot")) {
     kind = simready::Kind::Robot;
   } else if (profile.starts_with("simready-prop")) {
     kind = simready::Kind::Prop;
   }
-  return simready::judge(asset, kind);
+  return simready::judge(asset, simready::requirements(), kind);
 }
 
 }  // namespace tenon

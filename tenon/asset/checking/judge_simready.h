@@ -10,12 +10,13 @@
 
 namespace tenon {
 
-/// "simready", "simready-robot", "simready-prop", each alone or with the release: "@2026.8".
-bool is_simready_profile(const std::string& profile);
+/// "simready", "simready-robot", "simready-prop", each alone or with the release: "@2026.8"; and
+/// "rep-0158".
+bool has_codes(const std::string& profile);
 
-/// The asset judged by the requirements of SimReady; for "simready" as a robot where it has joints,
-/// else as a prop. Fails as tenon::open does.
-Result<check::simready::Judgement> judge_simready(const std::string& path,
+/// The asset judged by the requirements of such a profile; for "simready" as a robot where it has
+/// joints, else as a prop. Fails as tenon::open does.
+Result<check::simready::Judgement> judge_by_codes(const std::string& path,
                                                   const OpenOptions& options,
                                                   const std::string& profile);
 

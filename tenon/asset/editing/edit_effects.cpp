@@ -129,6 +129,10 @@ bool EditEffects::is_about_physics(const AssetEdit& edit) const {
   if (edit.is_about_prim() || edit.may_rest) {
     return false;
   }
+  // Plain MuJoCo bounds controls by it; where a servo is read as a drive, nothing here does.
+  if (edit.object.is_property() && edit.object.name().view().starts_with("mjc:ctrlRange:")) {
+    return false;
+  }
   if (edit.is_about_api()) {
     return edit.kind == AssetEdit::Kind::ApplyApi && makes_an_object(edit.api);
   }

@@ -138,10 +138,42 @@ std::vector<ColliderPair> near_pairs(const scene::PhysicsScene& scene,
   return found;
 }
 
+/// The farthest point of the solid, shrunk by a tenth, is behind the surface of the plane.
+bool is_below(const scene::PhysicsScene& scene, const Collider& plane, Placed item) {
+  Vec3d up;
+  up[static_cast<std::size_t>(plane.shape.axis)] = 1;
+  const Pose pose = world_pose(scene, plane);
+  up = rotate(pose.orientation, up);
+  item.solid.keep = 1 - kDepth;
+  return dot(item.solid.farthest(-up) - pose.position, up) < 0;
+}
+
 }  // namespace
 
 std::vector<ColliderPair> overlaps_at_start(const scene::PhysicsScene& scene, std::size_t most) {
   return near_pairs(scene, placed_solids(scene, 0), most, reach_into);
+}
+
+std::vector<ColliderPair> below_planes_at_start(const scene::PhysicsScene& scene,
+                                                std::size_t most) {
+  std::vector<ColliderPair> found;
+  std::vector<Placed> placed;
+  for (Index i = 0; i < scene.colliders.size(); ++i) {
+    const Collider& plane = scene.colliders[i];
+    if (!plane.enabled || plane.shape.kind != ShapeKind::Plane || is_dynamic(scene, plane)) {
+      continue;
+    }
+    if (placed.empty()) {
+      placed = placed_solids(scene, 0);
+    }
+    for (const Placed& item : placed) {
+      if (found.size() < most && is_dynamic(scene, scene.colliders[item.collider]) &&
+          scene.may_collide(i, item.collider) && is_below(scene, plane, item)) {
+        found.emplace_back(item.collider, i);
+      }
+    }
+  }
+  return found;
 }
 
 std::vector<ColliderPair> contacts_at_start(const scene::PhysicsScene& scene, std::size_t most,

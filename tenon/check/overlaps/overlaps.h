@@ -20,6 +20,10 @@ using ColliderPair = std::pair<scene::Index, scene::Index>;
 /// smaller one; at most `most`.
 std::vector<ColliderPair> overlaps_at_start(const scene::PhysicsScene& scene, std::size_t most);
 
+/// Convex colliders of bodies that move, each with a plane that stands still, may collide with it
+/// and holds more than a tenth of it at the start; at most `most`.
+std::vector<ColliderPair> below_planes_at_start(const scene::PhysicsScene& scene, std::size_t most);
+
 /// Between colliders that touch: what rounding leaves, as a part of their sizes.
 inline constexpr double kRoundedGap = 0.01;
 

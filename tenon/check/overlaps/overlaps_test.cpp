@@ -41,6 +41,18 @@ TEST(ContactsAtStart, AreNoOverlaps) {
   EXPECT_EQ(overlaps_at_start(scene, kAllOverlaps), (std::vector<ColliderPair>{{1, 2}}));
 }
 
+TEST(BelowPlanesAtStart, IsWhatReachesIntoOnesThatStandStill) {
+  scene::PhysicsScene scene = boxes_at({{{0, 0, 0.3}}, {{5, 0, 0.5}}, {{9, 0, -0.8}}});
+  scene::Collider floor;
+  floor.path = Path::from("/Floor");
+  floor.shape.kind = scene::ShapeKind::Plane;
+  floor.shape.axis = scene::Axis::Z;
+  scene.colliders.push_back(floor);
+  EXPECT_EQ(below_planes_at_start(scene, kAllOverlaps),
+            (std::vector<ColliderPair>{{0, 3}, {2, 3}}));
+  EXPECT_TRUE(overlaps_at_start(scene, kAllOverlaps).empty());
+}
+
 TEST(RestsOn, IsAboutTheDirectionOfGravity) {
   const Vec3d down{{0, 0, -1}};
   const scene::PhysicsScene above = boxes_at({{{0, 0, 0}}, {{0.3, 0, 1}}});

@@ -110,8 +110,8 @@ const std::vector<Requirement>& requirements() {
   return table;
 }
 
-const Requirement* find_requirement(std::string_view rule) {
-  for (const Requirement& one : requirements()) {
+const Requirement* find_requirement(const std::vector<Requirement>& table, std::string_view rule) {
+  for (const Requirement& one : table) {
     if (one.rule.id == rule) {
       return &one;
     }
@@ -120,10 +120,14 @@ const Requirement* find_requirement(std::string_view rule) {
 }
 
 std::string Requirement::full_code() const {
-  return "com.nvidia." + std::string(family) + "." + std::string(code);
+  return (family == "rep-0158" ? "" : "com.nvidia.") + std::string(family) + "." +
+         std::string(code);
 }
 
 std::string_view Requirement::version() const {
+  if (family == "rep-0158") {
+    return "ros-openusd-compliance-checker 0.1.2";
+  }
   return family == "usd" ? "usd-validation-nvidia 1.22.0" : "SimReady Foundation 2026.8.0";
 }
 
@@ -143,10 +147,10 @@ Kind kind_of(const JudgedStage& stage) {
   return std::any_of(stage.plain.begin(), stage.plain.end(), is_joint) ? Kind::Robot : Kind::Prop;
 }
 
-Judgement judge(const JudgedAsset& asset, Kind kind) {
+Judgement judge(const JudgedAsset& asset, const std::vector<Requirement>& table, Kind kind) {
   Judgement result;
   result.kind = kind;
-  for (const Requirement& requirement : requirements()) {
+  for (const Requirement& requirement : table) {
     const Need need = requirement.need(kind);
     if (need == Need::No) {
       continue;

@@ -35,6 +35,7 @@ struct NamedFile {
   std::string authored;  ///< as it is written
   std::string resolved;  ///< absolute path; empty: there is no such file
   Path spec;             ///< in that layer
+  bool is_layer;         ///< named by an arc, not by a value
 };
 
 /// A stage with its prims as validators walk them, each list in pre-order.

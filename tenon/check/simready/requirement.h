@@ -32,7 +32,7 @@ struct Judged {
 using Judge = void(const Judged& judged, Report& report);
 
 struct Requirement {
-  std::string_view family;   ///< "simready" or "usd"
+  std::string_view family;   ///< "simready", "usd" or "rep-0158"
   std::string_view code;     ///< "RB.001"
   Need robot = Need::No;     ///< of profile Robot-Body 3.0.0
   Need prop = Need::No;      ///< of profile Robotics-Prop 4.0.0
@@ -43,7 +43,7 @@ struct Requirement {
   Rule rule;                 ///< of its findings: "simready.RB.001"
 
   Need need(Kind kind) const { return kind == Kind::Robot ? robot : prop; }
-  /// As NVIDIA writes it: "com.nvidia.simready.RB.001".
+  /// As NVIDIA writes it: "com.nvidia.simready.RB.001"; of others "rep-0158.1.1.1".
   std::string full_code() const;
   /// The release that says so.
   std::string_view version() const;
@@ -51,13 +51,13 @@ struct Requirement {
 
 /// All, sorted by code.
 const std::vector<Requirement>& requirements();
-/// Of a finding's rule "simready.RB.001"; null for others.
-const Requirement* find_requirement(std::string_view rule);
+/// The one of a table that a finding's rule "simready.RB.001" is of; null where there is none.
+const Requirement* find_requirement(const std::vector<Requirement>& table, std::string_view rule);
 
 /// Takes what one requirement finds.
 class Report {
  public:
-  Report(const Rule& rule, std::vector<Diagnostic>& out) : reporter_(rule, out) {}
+  Report(const Rule& rule, std::vector<Diagnostic>& out) : reporter_(rule, out), out_(&out) {}
 
   void at(const stage::Prim& prim, const Message& message, std::string fix) {
     reporter_.at(prim, message, std::move(fix));
@@ -68,12 +68,15 @@ class Report {
   void at_root(const Judged& judged, const Message& message, std::string fix) {
     reporter_.at_root(*judged.stage.stage, message, std::move(fix));
   }
+  /// What was found last is of another severity than the requirement.
+  void as(Severity severity) { out_->back().severity = severity; }
   /// This asset has what no rule here can judge.
   void leave_open(std::string reason) { open_ = std::move(reason); }
   const std::string& left_open() const { return open_; }
 
  private:
   Reporter reporter_;
+  std::vector<Diagnostic>* out_;
   std::string open_;
 };
 
@@ -86,7 +89,7 @@ struct Judgement {
 /// A robot where the asset has a joint, else a prop.
 Kind kind_of(const JudgedStage& stage);
 
-/// Judges every requirement of the profile.
-Judgement judge(const JudgedAsset& asset, Kind kind);
+/// Judges every requirement of the table that the profile has.
+Judgement judge(const JudgedAsset& asset, const std::vector<Requirement>& table, Kind kind);
 
 }  // namespace tenon::check::simready

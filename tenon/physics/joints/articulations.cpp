@@ -66,8 +66,9 @@ class ArticulationReader {
  private:
   static StatementPart root_part() { return api_part("PhysicsArticulationRootAPI"); }
 
-  void drop(const PhysicsPrim& found, const char* rule, const Message& why, std::string fix) const {
-    state_.report(found.prim, Severity::Error, rule,
+  void drop(const PhysicsPrim& found, const char* rule, const Message& why, std::string fix,
+            Severity severity = Severity::Error) const {
+    state_.report(found.prim, severity, rule,
                   why + "; its bodies are simulated without an articulation", std::move(fix),
                   root_part());
   }
@@ -181,9 +182,12 @@ class ArticulationReader {
       return false;
     }
     if (state_.scene.bodies[root].kinematic) {
-      // S-113
-      drop(found, "articulation.root-kinematic", "the root of the articulation is kinematic",
-           "make the body dynamic and fix it to the world by a joint");
+      // S-113: OpenUSD allows it since 25.11, for articulations that are carried along.
+      drop(found, "articulation.root-kinematic",
+           "the root of the articulation is kinematic, which OpenUSD allows and PhysX ignores",
+           "leave it where the root is carried along, or make the body dynamic and fix it to the "
+           "world by a joint",
+           Severity::Warning);
       return false;
     }
     for (const Index body : component) {
