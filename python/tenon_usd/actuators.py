@@ -27,8 +27,9 @@ from typing import Any, SupportsIndex
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import counted, spread
+from ._arrays import counted, environments, finite
 from ._lists import no_such
+from ._patterns import compile_pattern
 from .draws import Distribution
 from .errors import InvalidError
 from .world import World
@@ -72,6 +73,25 @@ class PD:
 
 
 @dataclasses.dataclass(frozen=True)
+class PID:
+    """A PD with `bias` [N m or N] and the integral of the error of what is commanded over time, of
+    which at most `integral_limit` [that error times s] either way counts, times `integral`.
+
+    `rate` as PD has it; the integral is 0 from each reset on.
+    """
+
+    stiffness: Number
+    damping: Number
+    integral: Number
+    integral_limit: Number = math.inf
+    bias: Number = 0.0
+    rate: Number = 0.0
+
+    def __post_init__(self) -> None:
+        _check(self)
+
+
+@dataclasses.dataclass(frozen=True)
 class DCMotor:
     """The efforts that a motor of direct current with its gears reaches at the joint's velocity v:
     from -stall_effort (1 + v / no_load_speed) to stall_effort (1 - v / no_load_speed), and at most
@@ -99,9 +119,11 @@ class Saturation:
         _check(self)
 
 
-Stage = Delay | PD | DCMotor | Saturation
-#: Numbers that may not be 0.
+Stage = Delay | PD | PID | DCMotor | Saturation
+#: Numbers that may not be 0, those that may be infinite, and those that may be below 0.
 _ABOVE_ZERO = ("no_load_speed", "stall_effort")
+_INFINITE = ("max_effort", "integral_limit")
+_SIGNED = ("bias",)
 
 
 def _check(stage: Stage) -> None:
@@ -115,12 +137,15 @@ def _check(stage: Stage) -> None:
 
 
 def _check_number(stage: str, name: str, values: Array) -> None:
-    bad = np.isnan(values) | (values < 0) | ((values == 0) if name in _ABOVE_ZERO else False)
-    if name != "max_effort":
+    bad = np.isnan(values) | ((values == 0) if name in _ABOVE_ZERO else False)
+    if name not in _SIGNED:
+        bad |= values < 0
+    if name not in _INFINITE:
         bad |= np.isinf(values)
     if bad.any():
-        least = "above 0" if name in _ABOVE_ZERO else "0 or more"
-        raise InvalidError(f"{stage}.{name} must be finite and {least}, not {values[bad][0]:g}")
+        least = "" if name in _SIGNED else (
+            " and above 0" if name in _ABOVE_ZERO else " and 0 or more")
+        raise InvalidError(f"{stage}.{name} must be finite{least}, not {values[bad][0]:g}")
 
 
 class Actuator:
@@ -145,12 +170,13 @@ class Actuator:
             raise InvalidError(f"the range of {joints} is from {low:g} to {high:g}")
         effort = command == "effort"
         for stage in stages:
-            if isinstance(stage, PD):
+            if isinstance(stage, (PD, PID)):
                 if effort:
-                    raise InvalidError("a PD takes positions or velocities; before it are efforts")
+                    raise InvalidError(f"a {type(stage).__name__} takes positions or velocities; "
+                                       "before it are efforts")
                 effort = True
             elif isinstance(stage, DCMotor) and not effort:
-                raise InvalidError("a DCMotor limits efforts: a PD stands before it, or the "
+                raise InvalidError("a DCMotor limits efforts: a PD or PID stands before it, or the "
                                    'command is "effort"')
         #: Whether efforts come out; else targets of the asset's own drive.
         self.exerts = effort
@@ -171,14 +197,15 @@ class Actuator:
 
 def fitting(pattern: str, names: Sequence[str]) -> list[int]:
     """The numbers of the names that a path, its last element or a regular expression means. Raises
-    NotFoundError where it is none, InvalidError where it is no regular expression."""
+    NotFoundError where it is none, InvalidError where it is no regular expression, or one whose
+    search could go on for long."""
     last = [name.rpartition("/")[2] for name in names]
     for exact in (names, last):
         found = [i for i, name in enumerate(exact) if name == pattern]
         if found:
             return found
     try:
-        fits = re.compile(pattern).fullmatch
+        fits = compile_pattern(pattern, names).fullmatch
     except re.error as reason:
         raise InvalidError(f"{pattern!r} is no regular expression: {reason}") from None
     found = [i for i in range(len(names)) if fits(names[i]) or fits(last[i])]
@@ -251,7 +278,7 @@ class _Delayed:
 
 
 class _Controlled:
-    """A PD that computes at its own ticks and holds in between."""
+    """A PD or PID that computes at its own ticks and holds in between."""
 
     def __init__(self, numbers: _Numbers, time_step: float, shape: tuple[int, int],
                  command: str) -> None:
@@ -259,6 +286,7 @@ class _Controlled:
         self._held = np.zeros(shape)
         self._tick = np.zeros(shape, dtype=np.int64)
         self._period = np.ones(shape, dtype=np.int64)
+        self._sum = np.zeros(shape)
 
     def reset(self, mask: npt.NDArray[np.bool_], rest: Array) -> None:
         rate = self._numbers.held["rate"]
@@ -267,14 +295,23 @@ class _Controlled:
         self._period[mask] = np.maximum(np.minimum(period, 1 << 40), 1)[mask]
         self._tick[mask] = 0
         self._held[mask] = 0
+        self._sum[mask] = 0
 
     def apply(self, signal: Array, position: Array, velocity: Array) -> Array:
         held = self._numbers.held
         if self._command == "position":
-            effort = held["stiffness"] * (signal - position) - held["damping"] * velocity
+            error = signal - position
+            effort = held["stiffness"] * error - held["damping"] * velocity
         else:
-            effort = held["damping"] * (signal - velocity)
-        self._held = np.where(self._tick % self._period == 0, effort, self._held)
+            error = signal - velocity
+            effort = held["damping"] * error
+        now = self._tick % self._period == 0
+        if "integral" in held:
+            most = held["integral_limit"]
+            grown = np.clip(self._sum + error * self._period * self._step, -most, most)
+            self._sum = np.where(now, grown, self._sum)
+            effort = effort + held["integral"] * self._sum + held["bias"]
+        self._held = np.where(now, effort, self._held)
         self._tick += 1
         return self._held
 
@@ -320,7 +357,7 @@ class _Row:
             for name in self.names:
                 if name not in world.drive_names:
                     raise InvalidError(f"{name} has no drive that takes a {actuator.command}; add "
-                                       "a PD to its stages")
+                                       "a PD or PID to its stages")
         self.shape = (world.envs, len(self.columns))
         self.numbers: list[_Numbers] = []
         self.work: list[_Work] = []
@@ -331,7 +368,7 @@ class _Row:
             self.numbers.append(numbers)
             if isinstance(stage, Delay):
                 self.work.append(_Delayed(numbers, world.time_step, self.shape))
-            elif isinstance(stage, PD):
+            elif isinstance(stage, (PD, PID)):
                 self.work.append(
                     _Controlled(numbers, world.time_step, self.shape, actuator.command))
                 exerts = True
@@ -436,10 +473,7 @@ class Actuators:
 
         InvalidError where one is not finite: nothing changes then.
         """
-        commands = spread(values, self._commands.shape)
-        if not np.isfinite(commands).all():
-            raise InvalidError("commands must be finite numbers")
-        self._commands = commands.copy()
+        self._commands = finite("commands", values, self._commands.shape).copy()
 
     def set_other_targets(self, targets: Array) -> None:
         """Position targets of all drives (envs, drives) [rad or m]; those of drives that actuators
@@ -476,7 +510,7 @@ class Actuators:
     def restarted(self, envs: Any = None) -> None:
         """For those that called World.reset() themselves."""
         mask = np.zeros(self.world.envs, dtype=bool)
-        mask[self.world._which(envs)] = True
+        mask[environments(envs, self.world.envs)] = True
         self._started(mask)
 
     def _started(self, mask: npt.NDArray[np.bool_]) -> None:
@@ -543,5 +577,5 @@ def _unit_of(either: str, joint: Any) -> str:
     return second if along else first
 
 
-__all__ = ["COMMANDS", "Actuator", "Actuators", "DCMotor", "Delay", "Number", "PD", "Saturation",
-           "Stage"]
+__all__ = ["COMMANDS", "Actuator", "Actuators", "DCMotor", "Delay", "Number", "PD", "PID",
+           "Saturation", "Stage"]

@@ -7,11 +7,15 @@ each engine gives v += F h / m, then x += v h, so that after n steps of a consta
 v = n F h / m and x = n (n + 1) / 2 F h^2 / m.
 """
 
+import re
+import unittest
+
 import numpy as np
 import support
 
 import tenon_usd as tenon
-from tenon_usd.actuators import Actuator, Actuators, DCMotor, Delay, PD, Saturation
+from tenon_usd._patterns import compile_pattern
+from tenon_usd.actuators import Actuator, Actuators, DCMotor, Delay, PD, PID, Saturation
 from tenon_usd.draws import Choice, Uniform
 
 MASS, STEP = 2.0, 0.002
@@ -132,6 +136,33 @@ class ClosedForms(Actuated):
             np.testing.assert_allclose(world.joint_positions[:, 0], x, rtol=2e-4)
             np.testing.assert_allclose(world.joint_velocities[:, 0], v, rtol=2e-3, atol=1e-5)
 
+    def test_a_pid_ends_where_it_is_commanded_under_a_load(self):
+        # Held at rest by the integral alone: its efforts make up for the bias.
+        k, d, i, bias = 400.0, 60.0, 800.0, -30.0
+        for engine in self.each_engine():
+            world, motors = self.motors(engine, PID(k, d, i, bias=bias))
+            motors.set_commands([[0.5], [-0.2]])
+            x, v, total = np.zeros(2), np.zeros(2), np.zeros(2)
+            for _ in range(1500):
+                error = np.array([0.5, -0.2]) - x
+                total = total + error * STEP
+                v = v + STEP / MASS * (k * error - d * v + i * total + bias)
+                x = x + STEP * v
+            motors.step(1500)
+            np.testing.assert_allclose(world.joint_positions[:, 0], x, rtol=2e-3)
+            np.testing.assert_allclose(world.joint_positions[:, 0], [0.5, -0.2], atol=2e-2)
+            np.testing.assert_allclose(motors.efforts[:, 0], 0, atol=0.5)
+            motors.reset()
+            motors.set_commands(motors.world.joint_positions)
+            motors.step(1)
+            np.testing.assert_allclose(motors.efforts, bias)
+
+    def test_the_integral_of_a_pid_is_bounded(self):
+        world, motors = self.motors("mujoco", PID(0.0, 0.0, 10.0, integral_limit=0.3))
+        motors.set_commands(50.0)
+        motors.step(100)
+        np.testing.assert_allclose(motors.efforts, 10.0 * 0.3)
+
     def test_a_pd_in_each_step_swings_as_it_should(self):
         # Undamped: m x'' = k (c - x), so that x = c (1 - cos(w t)) with w^2 = k / m; half a period.
         k = MASS * (2 * np.pi) ** 2
@@ -216,7 +247,9 @@ class Episodes(Actuated):
         for wrong, told in (
                 (lambda: Delay(-1), "Delay.time"), (lambda: DCMotor(1, 0), "above 0"),
                 (lambda: PD(float("nan"), 1), "PD.stiffness"),
-                (lambda: Actuator("x", DCMotor(1, 1)), "PD"),
+                (lambda: PID(1, 1, -1), "PID.integral"),
+                (lambda: PID(1, 1, 1, bias=float("inf")), "PID.bias must be finite, "),
+                (lambda: Actuator("x", DCMotor(1, 1)), "PD or PID"),
                 (lambda: Actuator("x", PD(1, 1), PD(1, 1)), "efforts"),
                 (lambda: Actuator("x", command="postion"), "position"),
                 (lambda: Actuator("x", low=1, high=0), "range"),
@@ -228,12 +261,27 @@ class Episodes(Actuated):
                 wrong()
         with self.assertRaisesRegex(tenon.NotFoundError, "did you mean"):
             Actuators(world, [Actuator("slid")])
+        with self.assertRaisesRegex(tenon.InvalidError, "in more ways than can be tried"):
+            Actuators(world, [Actuator("(a+)+$")])
         with self.assertRaises(TypeError):
             Delay("soon")
         motors = Actuators(world, [Actuator("slide", PD(1, 1))])
         with self.assertRaises(tenon.InvalidError):
             motors.set_commands([[np.nan], [0]])
         self.assertEqual(motors.units, ["m"])
+
+
+class Patterns(unittest.TestCase):
+    def test_searches_without_an_end_are_refused(self):
+        names = ["/robot/Physics/left_hand_index_finger_2_joint", "x" * 100]
+        for usual in (".*", "left_.*_(thumb|index)_.*", ".*_finger_[0-9]+_joint", "(a|b)+.*c?",
+                      "j[0-9]{1,2}", "(left_)?arm.*", "(?i).*HAND.*", ".*a.*b.*c.*d"):
+            compile_pattern(usual, names)
+        for slow in ("(a+)+$", "(a|a)*b", "(a?){40}a{40}", "(.*)*", "(|a)+b", "(?=(a+)+$)",
+                     "((a{0,9}){0,9}){0,9}b", "(){1000000000}", ".*" * 6 + "x",
+                     "(" * 5000 + ")" * 5000, "a{99999999999999999}"):
+            with self.subTest(slow[:30]), self.assertRaises(re.error):
+                compile_pattern(slow, names)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ beside_newton), in which the script is then run; where there is none, its tests 
 """
 
 import importlib.util
+import math
 import os
 import re
 import subprocess
@@ -134,6 +135,90 @@ class WithoutNewton(unittest.TestCase):
             stage_of(3, "")
         with self.assertRaisesRegex(InvalidError, "addresses"):
             stage_of("https://evil.example/a.usda", "")
+
+    def actuators(self, apis: str, properties: str, target: str = "/arm/hinge") -> list[object]:
+        from tenon_usd.newton.actuators import read_actuators
+
+        named = ", ".join(f'"Newton{api}"' for api in apis.split())
+        applied = f"(prepend apiSchemas = [{named}])" if named else ""
+        text = arm(more=f"""def NewtonActuator "motor" {applied}
+    {{
+        rel newton:targets = [{target and f"<{target}>"}]
+        {properties}
+    }}""")
+        return read_actuators(tenon_usd.open("a.usda", contents={"a.usda": text}), 0.002)
+
+    def test_actuators_become_models_of_the_package(self):
+        from tenon_usd.actuators import PD, PID, Actuator, DCMotor, Delay, Saturation
+
+        wide = {"command": "velocity", "low": -math.inf, "high": math.inf}
+        for apis, properties, stages, options in (
+                ("PDControlAPI MaxEffortClampingAPI",
+                 "float newton:kp = 20\nfloat newton:kd = 1.5\nfloat newton:maxEffort = 5",
+                 (PD(20, 1.5), Saturation(5)), {}),
+                ("PDControlAPI ActuatorDelayAPI", "float newton:kp = 3\nint newton:delaySteps = 4",
+                 (Delay(0.008), PD(3, 0)), {}),
+                ("PDControlAPI", "float newton:kd = 2\nfloat newton:constEffort = -1",
+                 (PID(0, 2, 0, bias=-1),), wide),
+                ("PIDControlAPI DCMotorClampingAPI",
+                 "float newton:kp = 9\nfloat newton:ki = 4\nfloat newton:integralMax = 0.5\n"
+                 "float newton:saturationEffort = 8\nfloat newton:velocityLimit = 16",
+                 (PID(9, 0, 4, 0.5), DCMotor(8, 16)), {}),
+                ("PDControlAPI DCMotorClampingAPI",
+                 "float newton:kp = 1\nfloat newton:saturationEffort = 8\n"
+                 "float newton:maxMotorEffort = 6", (PD(1, 0), Saturation(6)), {}),
+                ("PDControlAPI DCMotorClampingAPI MaxEffortClampingAPI", "float newton:kp = 1",
+                 (PD(1, 0),), {})):
+            with self.subTest(apis):
+                self.assertEqual(self.actuators(apis, properties),
+                                 [Actuator("/arm/hinge", *stages, **options)])
+
+    def test_actuators_move_a_world(self):
+        import numpy as np
+
+        from tenon_usd.actuators import Actuators
+        from tenon_usd.newton.actuators import read_actuators
+
+        text = arm(more="""def NewtonActuator "motor" (
+        prepend apiSchemas = ["NewtonPIDControlAPI", "NewtonMaxEffortClampingAPI"])
+    {
+        rel newton:targets = </arm/hinge>
+        float newton:kp = 20
+        float newton:kd = 1
+        float newton:ki = 40
+        float newton:constEffort = 3
+        float newton:maxEffort = 9
+    }""")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "arm.usda"
+            path.write_text(text)
+            world = tenon_usd.World(str(path), "mujoco", time_step=0.002)
+            motors = Actuators(world, read_actuators(path, world.time_step))
+        motors.set_commands(-0.4)
+        motors.step(1)
+        np.testing.assert_allclose(motors.efforts, 20 * -0.4 + 40 * -0.4 * 0.002 + 3, rtol=1e-6)
+        motors.step(2000)
+        np.testing.assert_allclose(world.joint_positions, -0.4, atol=0.01)
+        np.testing.assert_allclose(motors.efforts, 0, atol=0.2)  # nothing else acts on the link
+
+    def test_actuators_that_are_not_simulated_are_named(self):
+        for apis, target, kind, told in (
+                ("NeuralControlAPI", "/arm/hinge", UnsupportedError,
+                 "/arm/motor: NewtonNeuralControlAPI, a neural network"),
+                ("PDControlAPI PositionBasedClampingAPI", "/arm/hinge", UnsupportedError,
+                 "/arm/motor: NewtonPositionBasedClampingAPI, a table"),
+                ("", "/arm/hinge", InvalidError, "/arm/motor: it has no control law"),
+                ("PDControlAPI PIDControlAPI", "/arm/hinge", InvalidError,
+                 "/arm/motor: it has several control laws"),
+                ("PDControlAPI", "", InvalidError, "newton:targets names no joint"),
+                ("PDControlAPI", "/arm/root", InvalidError, "a PhysicsFixedJoint"),
+                ("PDControlAPI", "/arm/none", InvalidError, "which is no prim")):
+            with self.subTest(apis + target), self.assertRaisesRegex(kind, told):
+                self.actuators(apis, "", target)
+        with self.assertRaisesRegex(InvalidError, "/arm/motor: PD.stiffness must be finite and 0"):
+            self.actuators("PDControlAPI", "float newton:kp = -1")
+        with self.assertWarnsRegex(UserWarning, "names 2 joints; /arm/hinge"):
+            self.actuators("PDControlAPI", "", "/arm/hinge>, </arm/root")
 
     def test_prims_are_read_as_by_pxr(self):
         from tenon_usd.newton.prims import Prims

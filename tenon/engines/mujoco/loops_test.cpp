@@ -57,6 +57,29 @@ TEST(Loops, FourBarStaysClosedAndMovesAsAParallelogram) {
   }
 }
 
+// A drive that is strong for the time step, on a joint that may turn by 1 rad/s.
+TEST(Loops, AFourBarMovesNoFasterThanTheVelocityLimitOfItsCrank) {
+  TestScene scene = four_bar(JointKind::Revolute);
+  for (scene::Joint& joint : scene.joints) {
+    joint.initial_velocity = 0;
+  }
+  scene.joints[0].velocity_limit = 1;
+  scene::Drive& drive = scene.joints[0].drives.emplace_back();
+  drive.dof = scene::Dof::RotY;
+  drive.stiffness = 5000;
+  drive.target_position = 1;
+  auto sim = simulation(scene);
+  double worst = 0;
+  for (int i = 0; i < 250; ++i) {
+    ASSERT_TRUE(sim->step().has_value());
+    worst = std::max(worst, gap(*sim));
+  }
+  EXPECT_NEAR(sim->joint_state(0).position[0], 0.5, 5e-3);
+  EXPECT_NEAR(sim->joint_state(2).position[0], 0.5, 5e-3);
+  EXPECT_NEAR(sim->joint_state(2).velocity[0], 1, 1e-2);
+  EXPECT_LT(worst, 5e-3);
+}
+
 TEST(Loops, LimitOnALoopJointActs) {
   TestScene scene = four_bar(JointKind::Revolute);
   scene.joints[3].lower = -0.3;

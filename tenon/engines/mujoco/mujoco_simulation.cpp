@@ -141,6 +141,9 @@ Result<void> MujocoSimulation::step() {
   if (outputs_) {
     outputs_->begin(*scene_, model_);
   }
+  if (!caps_.empty()) {
+    caps_.begin(model_);
+  }
   stale_ = true;
   {
     const FilterScope filter(model_.filter);

@@ -189,42 +189,76 @@ TEST(BodySettings, SlowBodiesOnJointsMoveAsWithoutALimit) {
   EXPECT_EQ(plain->joint_state(0).position[0], capped->joint_state(0).position[0]);
 }
 
-// A drive that could turn by 90 degrees in a few steps.
-TEST(BodySettings, JointsMoveNoFartherThanTheirVelocityLimitsLetThem) {
+// Bodies that turn about z, each at its place, the first by a drive that could turn it by 90
+// degrees in a few steps.
+TestScene driven_row(const std::vector<const char*>& names) {
   TestScene scene(0);
-  const auto body = scene.add_body("Body", {});
-  scene::Joint& joint = scene.add_joint("J", JointKind::Revolute, {}, body, scene::Axis::Z);
-  joint.velocity_limit = 1;
-  scene::Drive& drive = joint.drives.emplace_back();
-  drive.dof = Dof::RotZ;
-  drive.stiffness = 5000;
-  drive.target_position = 1.5;
-  auto sim = simulation(scene);
-  run(*sim, 0.5);
-  EXPECT_NEAR(sim->joint_state(0).position[0], 0.5, 1e-9);
-}
-
-// What follows a joint stays at its place, however fast the joint is driven against its limit.
-TEST(BodySettings, MimicsKeepTheirLawWhereTheirLeaderIsCut) {
-  TestScene scene(0);
-  for (const char* name : {"A", "B"}) {
-    const auto body = scene.add_body(name, {{scene.bodies.empty() ? 0.0 : 2.0, 0, 0}});
+  for (const char* name : names) {
+    const auto x = 2.0 * static_cast<double>(scene.bodies.size());
+    const auto body = scene.add_body(name, {{x, 0, 0}});
     scene.add_joint(name, JointKind::Revolute, {}, body, scene::Axis::Z).frame0.position =
         scene.bodies[body].pose.position;
   }
-  scene::Joint& leader = scene.joints[0];
-  leader.velocity_limit = 1;
-  scene::Drive& drive = leader.drives.emplace_back();
+  scene.joints[0].velocity_limit = 1;
+  scene::Drive& drive = scene.joints[0].drives.emplace_back();
   drive.dof = Dof::RotZ;
   drive.stiffness = 5000;
   drive.target_position = 1.5;
-  scene::Mimic mimic;
-  mimic.dof = Dof::RotZ;
-  mimic.leader_dof = Dof::RotZ;
-  scene.joints[1].mimics.push_back(mimic);
-  auto sim = simulation(scene);
-  run(*sim, 0.5);
-  EXPECT_NEAR(sim->joint_state(1).position[0], sim->joint_state(0).position[0], 0.02);
+  return scene;
+}
+
+std::unique_ptr<MujocoSimulation> simulation_by(const scene::PhysicsScene& scene,
+                                                Integrator integrator) {
+  Diagnostics findings;
+  SimulationOptions options{.time_step = 0.002};
+  options.methods.integrator = integrator;
+  auto made = MujocoSimulation::make(scene, options, findings);
+  EXPECT_TRUE(made.has_value());
+  return made.has_value() ? *std::move(made) : nullptr;
+}
+
+constexpr Integrator kIntegrators[] = {Integrator::Euler, Integrator::ImplicitFast,
+                                       Integrator::RungeKutta4};
+
+TEST(BodySettings, JointsMoveNoFartherThanTheirVelocityLimitsLetThem) {
+  const TestScene scene = driven_row({"A"});
+  for (const Integrator integrator : kIntegrators) {
+    auto sim = simulation_by(scene, integrator);
+    double before = 0;
+    for (int i = 0; i < 250; ++i) {
+      ASSERT_TRUE(sim->step());
+      const JointState state = sim->joint_state(0);
+      ASSERT_NEAR(state.velocity[0], 1, 1e-9) << integrator_name(integrator) << i;
+      ASSERT_NEAR((state.position[0] - before) / sim->time_step(), 1, 1e-9)
+          << integrator_name(integrator) << i;
+      before = state.position[0];
+    }
+  }
+}
+
+// What follows a joint is cut with it, whichever of the two the limit is of.
+TEST(BodySettings, MimicsKeepTheirLawWhereOneOfThemIsCut) {
+  for (const double follower_limit : {scene::kUnlimited, 1.2}) {
+    TestScene scene = driven_row({"A", "B"});
+    scene::Mimic mimic;
+    mimic.dof = Dof::RotZ;
+    mimic.leader_dof = Dof::RotZ;
+    mimic.multiplier = -2;
+    scene.joints[1].mimics.push_back(mimic);
+    scene.joints[1].velocity_limit = follower_limit;
+    const double speed = follower_limit < scene::kUnlimited ? 0.6 : 1;
+    for (const Integrator integrator : kIntegrators) {
+      auto sim = simulation_by(scene, integrator);
+      run(*sim, 0.5);
+      const JointState leader = sim->joint_state(0);
+      const JointState follower = sim->joint_state(1);
+      EXPECT_NEAR(leader.velocity[0], speed, 2e-3) << integrator_name(integrator);
+      EXPECT_NEAR(leader.position[0], 0.5 * speed, 2e-3) << integrator_name(integrator);
+      EXPECT_NEAR(std::fabs(follower.velocity[0]), 2 * speed, 2e-3) << integrator_name(integrator);
+      EXPECT_NEAR(std::fabs(follower.position[0]), 2 * leader.position[0], 2e-3)
+          << integrator_name(integrator);
+    }
+  }
 }
 
 TEST(BodySettings, LockedAxesOfTheWorldDoNotMove) {

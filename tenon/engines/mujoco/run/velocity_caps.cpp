@@ -8,7 +8,8 @@
 // The speed of a body on joints costs a Jacobian, so first it is bounded by the sum of all speeds
 // of its tree: few steps need more. An impulse p along n at the centre of mass changes the
 // velocities of the joints by M^-1 J^T n p, and the speed along n by n^T J M^-1 J^T n p. It also
-// turns the body's way aside where joints hold it, so that some repetitions are needed.
+// turns the body's way aside where joints hold it, so that some repetitions are needed. Equalities
+// answer each impulse with their own: what they tie is cut together.
 #include "tenon/engines/mujoco/run/velocity_caps.h"
 
 #include <algorithm>
@@ -37,6 +38,14 @@ bool cut(double* velocity, double limit) {
   return true;
 }
 
+// A degree of freedom of a body's kinematic tree.
+int any_dof(const mjModel& m, int body) {
+  while (body > 0 && m.body_dofnum[body] == 0) {
+    body = m.body_parentid[body];
+  }
+  return m.body_dofadr[body];
+}
+
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 double sum_of_sizes(const std::vector<int>& places, const double* numbers) {
@@ -47,42 +56,12 @@ double sum_of_sizes(const std::vector<int>& places, const double* numbers) {
   return sum;
 }
 
-// The degrees of freedom of trees in which an equality ties joints or bodies; of all trees where it
-// ties tendons.
-std::vector<char> held_by_equalities(const mjModel& m) {
-  std::vector<char> tree(static_cast<std::size_t>(m.ntree), 0);
-  const auto hold = [&](int type, int object) {
-    const int body = type == mjOBJ_JOINT  ? m.jnt_bodyid[object]
-                     : type == mjOBJ_SITE ? m.site_bodyid[object]
-                                          : object;
-    if (m.body_treeid[body] >= 0) {
-      tree[static_cast<std::size_t>(m.body_treeid[body])] = 1;
-    }
-  };
-  for (int i = 0; i < m.neq; ++i) {
-    const int type = m.eq_type[i] == mjEQ_JOINT ? mjOBJ_JOINT : m.eq_objtype[i];
-    if (type != mjOBJ_JOINT && type != mjOBJ_BODY && type != mjOBJ_SITE) {
-      std::fill(tree.begin(), tree.end(), char{1});
-      break;
-    }
-    for (const int object : {m.eq_obj1id[i], m.eq_obj2id[i]}) {
-      if (object >= 0) {
-        hold(type, object);
-      }
-    }
-  }
-  std::vector<char> held(static_cast<std::size_t>(m.nv), 0);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    held[i] = tree[static_cast<std::size_t>(m.dof_treeid[i])];
-  }
-  return held;
-}
-
 double norm(const double* vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
 }  // namespace
 
-VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model) {
+VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
+    : equalities_(*model.model) {
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const JointMap& map = model.joints[j];
     if (scene.joints[j].velocity_limit < scene::kUnlimited && map.in_tree && map.dof.size() == 1 &&
@@ -94,23 +73,22 @@ VelocityCaps::VelocityCaps(const scene::PhysicsScene& scene, const Model& model)
     const scene::BodySettings& settings = scene.bodies[b].settings;
     const bool capped = settings.max_linear_velocity < scene::kUnlimited ||
                         settings.max_angular_velocity < scene::kUnlimited;
-    if (capped && model.plan.bases[b] == BodyBase::Free) {
+    const BodyBase base = model.plan.bases[b];
+    if (capped && base == BodyBase::Free && !equalities_.tie(model.bodies[b].free_dof)) {
       const double linear = settings.max_linear_velocity;
       const double angular = settings.max_angular_velocity;
       bodies_.push_back({model.bodies[b].free_dof, linear, angular, kNear * linear * linear,
                          kNear * angular * angular});
-    } else if (capped && model.plan.bases[b] == BodyBase::Jointed) {
+    } else if (capped && (base == BodyBase::Free || base == BodyBase::Jointed)) {
       add_link(model, model.bodies[b].id, settings);
     }
   }
   if (!empty()) {
     unit_.assign(static_cast<std::size_t>(model.model->nv), 0);
     response_ = unit_;
-    change_ = unit_;
+    end_ = unit_;
+    way_ = unit_;
     jacobian_.resize(trees_.empty() ? 0 : 3 * unit_.size());
-    is_held_ = held_by_equalities(*model.model);
-    takes_back_ = model.model->opt.integrator != mjINT_RK4 &&
-                  std::find(is_held_.begin(), is_held_.end(), char{0}) != is_held_.end();
   }
 }
 
@@ -232,6 +210,11 @@ bool VelocityCaps::cut_link(const Link& link, bool angular, Model& model) {
   if (!(speed > limit * (1 + kClose))) {
     return false;
   }
+  const int dof = any_dof(*m, link.body);
+  if (equalities_.restore(dof, *m, *d)) {
+    cut_link(link, angular, model);
+    return true;
+  }
   for (std::size_t k = 0; k < nv; ++k) {
     unit_[k] = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -239,6 +222,7 @@ bool VelocityCaps::cut_link(const Link& link, bool angular, Model& model) {
     }
   }
   mj_solveM(m, d, response_.data(), unit_.data(), 1);
+  equalities_.answer(dof, *m, *d, response_.data());
   double inverse_mass = 0;
   for (std::size_t k = 0; k < nv; ++k) {
     inverse_mass += unit_[k] * response_[k];
@@ -285,49 +269,92 @@ bool VelocityCaps::cut_bodies(mjData& data) const {
   return any;
 }
 
+// What follows a joint by an equality may be anywhere in the model, so that all of it is cleared.
+void VelocityCaps::respond_tied(const Coordinate& at, const mjModel& m, mjData& d) {
+  for (const int i : equalities_.tied_to(at.dof)) {
+    response_[static_cast<std::size_t>(i)] = 0;
+  }
+  respond(at, m, d);
+  equalities_.answer(at.dof, m, d, response_.data());
+}
+
 bool VelocityCaps::cut_joints(const mjModel& m, mjData& d) {
   double* const velocity = d.qvel;
   const double* const response = response_.data();
   bool any = false;
   for (const Coordinate& at : dofs_) {
+    if (!(std::fabs(velocity[at.dof]) > at.limit)) {
+      continue;
+    }
+    any = true;
+    equalities_.restore(at.dof, m, d);
     const double own = velocity[at.dof];
     if (!(std::fabs(own) > at.limit)) {
       continue;
     }
-    respond(at, m, d);
-    const double impulse = (std::copysign(at.limit, own) - own) / response[at.dof];
-    for (int i = at.first; i < at.last; ++i) {
-      velocity[i] += impulse * response[i];
+    const double wanted = std::copysign(at.limit, own) - own;
+    if (equalities_.tie(at.dof)) {
+      respond_tied(at, m, d);
+      if (!(response[at.dof] > kImmobile)) {
+        continue;
+      }
+      const double impulse = wanted / response[at.dof];
+      for (const int i : equalities_.tied_to(at.dof)) {
+        velocity[i] += impulse * response[i];
+      }
+    } else {
+      respond(at, m, d);
+      const double impulse = wanted / response[at.dof];
+      for (int i = at.first; i < at.last; ++i) {
+        velocity[i] += impulse * response[i];
+      }
     }
-    any = true;
   }
   return any;
 }
 
-// The step has moved by the velocity at its end, which was not cut yet: a strong drive goes through
-// many times the limit within one step.
-void VelocityCaps::take_back_way(const mjModel& m, mjData& d) {
-  bool any = false;
-  for (std::size_t i = 0; i < change_.size(); ++i) {
-    change_[i] = is_held_[i] != 0 ? 0 : d.qvel[i] - change_[i];
-    any = any || change_[i] != 0;
-  }
-  if (any) {
-    mj_integratePos(&m, d.qpos, change_.data(), m.opt.timestep);
+bool VelocityCaps::cut_all(Model& model) {
+  const bool bodies = !bodies_.empty() && cut_bodies(*model.data);
+  const bool joints = cut_joints(*model.model, *model.data);
+  const bool links = !trees_.empty() && cut_links(model);
+  return bodies || joints || links;
+}
+
+void VelocityCaps::begin(const Model& model) {
+  equalities_.begin(*model.data);
+  if (model.model->opt.integrator == mjINT_RK4) {
+    start_.assign(model.data->qpos, model.data->qpos + model.model->nq);
   }
 }
 
+// The step has moved by the velocity at its end, which was not cut yet, or by a mean of several: a
+// strong drive goes through many times the limit within one step. What it moved by is cut alike.
 void VelocityCaps::apply(Model& model) {
   const mjModel& m = *model.model;
   mjData& d = *model.data;
-  if (takes_back_) {
-    std::copy(d.qvel, d.qvel + m.nv, change_.begin());
+  const auto nv = static_cast<std::size_t>(m.nv);
+  equalities_.end_step();
+  const bool is_mean = m.opt.integrator == mjINT_RK4;
+  if (is_mean) {
+    mj_differentiatePos(&m, way_.data(), m.opt.timestep, start_.data(), d.qpos);
+  } else {
+    std::copy(d.qvel, d.qvel + nv, way_.begin());
   }
-  const bool bodies = !bodies_.empty() && cut_bodies(d);
-  const bool joints = cut_joints(m, d);
-  const bool links = !trees_.empty() && cut_links(model);
-  if (takes_back_ && (bodies || joints || links)) {
-    take_back_way(m, d);
+  bool any = cut_all(model);
+  if (is_mean) {
+    std::copy(d.qvel, d.qvel + nv, end_.begin());
+    std::copy(way_.begin(), way_.end(), d.qvel);
+    equalities_.restart();
+    any = cut_all(model);
+  }
+  if (any) {
+    for (std::size_t i = 0; i < nv; ++i) {
+      way_[i] = d.qvel[i] - way_[i];
+    }
+    mj_integratePos(&m, d.qpos, way_.data(), m.opt.timestep);
+  }
+  if (is_mean) {
+    std::copy(end_.begin(), end_.end(), d.qvel);
   }
 }
 

@@ -5,20 +5,23 @@
 #include <vector>
 
 #include "tenon/engines/mujoco/model.h"
+#include "tenon/engines/mujoco/run/equality_motion.h"
 
 namespace tenon::engines::mujoco {
 
 /// Cuts velocities to the limits of the scene after a step, and the way that they made during it:
 /// of joints by the impulse along them that does it, of bodies that move freely by scaling their
-/// own velocity, of bodies on joints by the impulse on the body against its motion. Where
-/// equalities such as mimics and loops hold a kinematic tree together, only velocities are cut: an
-/// impulse along one joint knows nothing of those that follow it.
+/// own velocity, of bodies on joints by the impulse on the body against its motion. What equalities
+/// such as mimics and loops tie to it is cut along.
 class VelocityCaps {
  public:
   VelocityCaps() = default;
   VelocityCaps(const scene::PhysicsScene& scene, const Model& model);
 
   bool empty() const { return dofs_.empty() && bodies_.empty() && trees_.empty(); }
+  /// Before a step.
+  void begin(const Model& model);
+  /// After it.
   void apply(Model& model);
 
  private:
@@ -64,11 +67,13 @@ class VelocityCaps {
   bool cut_link(const Link& link, bool angular, Model& model);
   /// What a unit impulse along a coordinate does, into response_.
   void respond(const Coordinate& at, const mjModel& m, const mjData& d);
-  /// The parts of apply(); true where a velocity was cut.
+  /// The same with what equalities tie to it.
+  void respond_tied(const Coordinate& at, const mjModel& m, mjData& d);
+  /// True where a velocity was cut.
+  bool cut_all(Model& model);
   bool cut_bodies(mjData& data) const;
   bool cut_joints(const mjModel& m, mjData& d);
   bool cut_links(Model& model);
-  void take_back_way(const mjModel& m, mjData& d);
 
   std::vector<Coordinate> dofs_;
   std::vector<FreeBody> bodies_;
@@ -76,9 +81,10 @@ class VelocityCaps {
   std::vector<double> unit_;      ///< scratch (dof_count)
   std::vector<double> response_;  ///< scratch (dof_count)
   std::vector<double> jacobian_;  ///< scratch (3 x dof_count)
-  std::vector<double> change_;    ///< scratch (dof_count)
-  std::vector<char> is_held_;     ///< (dof_count) in a tree with equalities
-  bool takes_back_ = false;       ///< some is not, and steps are not Runge-Kutta steps
+  std::vector<double> end_;       ///< scratch (dof_count)
+  std::vector<double> way_;       ///< scratch (dof_count)
+  std::vector<double> start_;     ///< coordinates before a step of Runge and Kutta's method
+  EqualityMotion equalities_;
 };
 
 }  // namespace tenon::engines::mujoco
