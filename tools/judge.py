@@ -122,6 +122,21 @@ def judgements_of_pages_and_python():
     yield Judgement("learned", ["bash", "-c", "python/tests/install.sh && "
                                 "python/tests/learned.sh {engine}"], "release", (),
                     "python/examples/learn/requirements-learn.txt")
+    # Known truth of identify on robots of build/robots.
+    yield Judgement("identify_robots", ["bash", "-c", "python/tests/install.sh && "
+                                        "python/tests/run.sh build/wheel/beside "
+                                        "python/tests/identify_robots.py . "
+                                        "build/release/bin/tenon "
+                                        "python/tests/identify_robots_misses.txt"],
+                    "release", ["tenon_cli", "tenon_worker"])
+    # The same beside MuJoCo's own.
+    yield Judgement("identify_beside", ["bash", "-c", "python/tests/install.sh && "
+                                        "PYTHONPATH=$(echo build/wheel/clean/lib/python*/"
+                                        "site-packages) {engine} -B "
+                                        "python/tests/identify_beside.py . "
+                                        "build/release/bin/tenon docs/identify.md"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "python/tests/requirements-sysid.txt")
     yield Judgement("clean_root", ["bash", "-c", "python/tests/install.sh && "
                                    "python/tests/clean_root.sh"], "release")
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "

@@ -185,6 +185,7 @@ class Excite(support.FilesTestCase):
         for options, rule in (({"joints": "slide"}, "excite.joints"),
                               ({"joints": "wrist"}, "excite.joints"),
                               ({"joints": "("}, "excite.joints"),
+                              ({"joints": "(a+)+$"}, "excite.joints"),
                               ({"kind": "walk"}, "excite.options"),
                               ({"step": 0.0}, "excite.options"),
                               ({"duration": math.nan}, "excite.options"),

@@ -254,7 +254,7 @@ class Refused(Files):
         self.refused(path, "log.unknown-channel", 1)
         _, notes = read_log(path, JOINTS, Reading(ignore=("bat.*",)))
         self.assertEqual(notes[0].rule, "log.ignored")
-        self.refused(path, "log.ignore", ignore=("(",))
+        self.refused(path, "log.ignore", ignore=("(a+)+$",))
         self.refused(path, "log.joint", mapping={"battery": "elbow"}, ignore=("bat.*",))
         self.refused(path, "log.unknown-channel", mapping={"gone": "shoulder"})
         self.refused(self.csv("time,shoulder.velocity", place), "log.no-joint")

@@ -120,6 +120,14 @@ class Recovered(Case):
     def test_an_arm_of_two_links(self):
         self.check(ARM, (), 11, 8)
 
+    def test_no_more_is_simulated_than_needs_be(self):
+        """Of five numbers: a handful of steps with six runs each, and what weighs and checks them;
+        92 where every step tried four dampings and every round began anew."""
+        rows = [Row(family) for family in DEFAULT_FAMILIES if family != "delay"]
+        done = self_test(self.asset(HINGE), rows, duration=2.0, step=STEP)
+        self.assertTrue(done.solution.settled)
+        self.assertLessEqual(done.solution.simulations, 60)
+
     def test_a_finger_whose_links_follow_has_sums(self):
         done = self.check(FINGER, WITHOUT_FRICTION, 5, 3)
         self.assertEqual([each.parameter.name for each in done.scores][:2],

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from .._patterns import compile_pattern
 from .checks import check_log
 from .joints import AssetJoint, find_joint
 from .log import COMMANDS, SIGNALS, Array, Finding, Log, LogError
@@ -226,7 +227,7 @@ def _signals(raw: RawLog, names: _Names, metres: float, is_command: bool, notes:
     """Values in SI units by joint and signal, each with its column."""
     found: Found = {}
     unused: list[str] = []
-    ignored = [_expression(each) for each in names.how.ignore]
+    ignored = [_expression(each, raw.columns) for each in names.how.ignore]
     _check_mapping(raw, names)
     for column, values in raw.columns.items():
         if any(each.fullmatch(column) for each in ignored) or (
@@ -247,9 +248,9 @@ def _signals(raw: RawLog, names: _Names, metres: float, is_command: bool, notes:
     return found
 
 
-def _expression(text: str) -> re.Pattern[str]:
+def _expression(text: str, columns: Iterable[str]) -> re.Pattern[str]:
     try:
-        return re.compile(text)
+        return compile_pattern(text, columns)
     except re.error as error:
         raise LogError(Finding("log.ignore", f"`{text}` is no regular expression: {error}",
                                fix="--ignore '.*current.*', for whole names")) from None

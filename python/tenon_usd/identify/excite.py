@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._patterns import compile_pattern
 from .curves import KINDS, SINES, Bounds, Sines, draw_sines, in_turn, multisine, smooth
 from .information import DROWNED, USUAL_SPEED, Judge, information
 from .joints import AssetJoint, asset_joints
@@ -132,7 +133,7 @@ def chosen_joints(joints: Sequence[AssetJoint], pattern: str, notes: list[Findin
                   ) -> tuple[AssetJoint, ...]:
     """Those that move by themselves, have a drive and fit the pattern. Raises ExciteError."""
     try:
-        expression = re.compile(pattern)
+        expression = compile_pattern(pattern, [joint.name for joint in joints], anywhere=True)
     except re.error as error:
         raise ExciteError(Finding("excite.joints", f"`{pattern}` is no regular expression: {error}",
                                   fix="--joints 'shoulder|elbow'")) from None

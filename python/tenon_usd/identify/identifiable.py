@@ -12,6 +12,7 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+import numpy.typing as npt
 
 from .log import Array, Log
 from .model import Model
@@ -82,10 +83,33 @@ def moments_of(model: Model) -> tuple[Array, Array]:
 
 def sensitivity(model: Model, parameters: list[Parameter], values: Array,
                 weights: dict[str, Array]) -> tuple[Array, Array]:
-    """Residuals (numbers,) at `values`, and their derivatives (numbers, P).
+    """Residuals (numbers,) at `values`, and their derivatives (numbers, P)."""
+    return Around(model, parameters, values).slopes(weights)
+
+
+class Around:
+    """What a model does with values, in the first set, and with each of them a little changed.
 
     Which command counts at a sample is the same with a little more delay: it changes an effort by
     what the joint does, not by a jump."""
+
+    def __init__(self, model: Model, parameters: list[Parameter], values: Array) -> None:
+        self.model, self.values = model, values.copy()
+        ahead, behind, self._both, sets, clock = _varied(model, parameters, values)
+        self._steps = ahead + behind
+        self.predicted = model.predict(parameters, sets, clock)
+
+    def slopes(self, weights: dict[str, Array]) -> tuple[Array, Array]:
+        """Residuals (numbers,) and their derivatives (numbers, P)."""
+        apart, count = residuals(self.model, self.predicted, weights), len(self.values)
+        lower = np.repeat(apart[:1], count, axis=0)
+        lower[self._both] = apart[1 + count:]
+        return apart[0], np.asarray((apart[1:1 + count] - lower).T / self._steps)
+
+
+def _varied(model: Model, parameters: list[Parameter], values: Array
+            ) -> tuple[Array, Array, npt.NDArray[np.intp], Array, Array]:
+    """Steps ahead and behind (P,), which parameters have both, and the sets with their clocks."""
     ahead, behind = np.zeros(len(parameters)), np.zeros(len(parameters))
     for at, parameter in enumerate(parameters):
         if parameter.family == "delay":
@@ -98,11 +122,7 @@ def sensitivity(model: Model, parameters: list[Parameter], values: Array,
                            values[None] - np.diag(behind)[both]])
     clock = sets.copy()
     clock[:, both] = values[both]
-    apart = residuals(model, model.predict(parameters, sets, clock), weights)
-    lower = np.repeat(apart[:1], len(parameters), axis=0)
-    lower[both] = apart[1 + len(parameters):]
-    slopes = (apart[1:1 + len(parameters)] - lower).T / (ahead + behind)
-    return apart[0], np.asarray(slopes)
+    return ahead, behind, both, sets, clock
 
 
 def scales_of(parameters: list[Parameter], values: Array) -> Array:

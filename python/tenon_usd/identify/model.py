@@ -504,16 +504,18 @@ class Model:
         batch = world._batch
         drives = [(column, drive) for column, drive in self._driven.items()
                   if not is_plain(self.plant.drives[self.log.joints[column]])]
+        columns, places, speeds = _as_slice(self.columns), made["position"], made.get("velocity")
+        changed = _changes(targets, self.steps)
         for k in range(self.steps):
-            if targets is not None:
+            if targets is not None and changed[k]:
                 batch.set_targets(targets[0][k], targets[1][k])
             if efforts is not None:
                 batch.set_efforts(efforts[k])
             batch.step(1)
             own, speed = batch.joints()
-            made["position"][k + 1] = own[:, self.columns]
-            if "velocity" in made:
-                made["velocity"][k + 1] = speed[:, self.columns]
+            places[k + 1] = own[:, columns]
+            if speeds is not None:
+                speeds[k + 1] = speed[:, columns]
             if effort and drives:
                 force = batch.drive_efforts()
                 for column, drive in drives:
@@ -533,6 +535,21 @@ class Model:
             made[:, w] = np.moveaxis((1 - part) * by_set[before, :, w]
                                      + part * by_set[before + 1, :, w], 0, 1)
         return made
+
+
+def _as_slice(columns: list[int]) -> slice | list[int]:
+    """Of columns next to each other their slice, which NumPy takes many times faster."""
+    first = columns[0]
+    together = columns == list(range(first, first + len(columns)))
+    return slice(first, first + len(columns)) if together else columns
+
+
+def _changes(targets: tuple[Array, Array] | None, steps: int) -> list[bool]:
+    """Whether targets are others than those of the step before."""
+    made = np.ones(steps, dtype=bool)
+    if targets is not None:
+        made[1:] = np.any([np.any(each[1:] != each[:-1], axis=(1, 2)) for each in targets], axis=0)
+    return [bool(each) for each in made]
 
 
 def is_plain(drive: Any) -> bool:

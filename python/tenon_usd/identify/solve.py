@@ -22,8 +22,8 @@ import numpy as np
 from ..errors import Error, InvalidError, check_file
 from ..sweep.cases import ExtraMissing
 from ..sweep.chunks import write_whole
-from .identifiable import (Identifiability, judge, moments_of, prior_rows, residuals, scales_of,
-                           sensitivity, weights_of)
+from .identifiable import (Around, Identifiability, judge, moments_of, prior_rows, residuals,
+                           scales_of, sensitivity, weights_of)
 from .intervals import sum_deviation
 from .linear import linear_start, scipy
 from .log import Array
@@ -31,10 +31,17 @@ from .model import Model
 from .parameters import Parameter
 
 SOLVERS = ("gauss-newton", "cma")
-ROUNDS = 3
-#: Steps of a round at most; factors of the damping that each of them tries.
-STEPS = 30
+#: At most; the first with weights that nothing is known of yet, so that it ends early.
+ROUNDS = 4
+#: Of the cost, what a step gains at least in the first round and in the others.
+ENOUGH = (1e-2, 1e-4)
+#: By how much weights may change for a round to be the last.
+SETTLED = 0.05
+#: Steps of the first round and of the others at most; factors of the damping that each of them
+#: tries, the first alone where it gains at least this part of what the slopes promise.
+STEPS = (4, 30)
 DAMPINGS = (1e-3, 1.0, 1e2, 1e4)
+PROMISED = 0.7
 MOST_DAMPING = 1e6
 #: Differences of more deviations count less: where commands jump, moments of the clock decide.
 OUTLIER = 3.0
@@ -149,6 +156,7 @@ class _Fit:
         self.settled = True
         self.best: tuple[float, Array] | None = None
         self._slopes: tuple[Array, Array, Array] | None = None
+        self._around: Around | None = None
         self.state = State("", "")
 
     def clipped(self, values: Array) -> Array:
@@ -173,10 +181,16 @@ class _Fit:
 
     def derivatives(self, values: Array) -> tuple[Array, Array]:
         """Residuals and their derivatives, those of priors behind the others."""
-        apart, own = sensitivity(self.model, self.parameters, values, self.weights)
-        self.simulations += len(values) + 1
+        apart, own = self.around(values).slopes(self.weights)
         priors = prior_rows(self.parameters, values)
         return np.concatenate([apart, priors[0]]), np.concatenate([own, priors[1]])
+
+    def around(self, values: Array) -> Around:
+        """Simulated where the last ones were of other values."""
+        if self._around is None or not np.array_equal(self._around.values, values):
+            self._around = Around(self.model, self.parameters, values)
+            self.simulations += len(values) + 1
+        return self._around
 
     def scan_delays(self, optimize: Any, values: Array) -> Array:
         """The delays around that leave least, with all else as it is and with what would suit each
@@ -213,10 +227,15 @@ class _Fit:
                                            low, high)
         return self.clipped(made)
 
-    def reweigh(self, values: Array) -> None:
-        """Weights that make what is left of every channel and joint 1."""
-        predicted = self.model.predict(self.parameters, values[None])
-        self.simulations += 1
+    def reweigh(self, values: Array) -> float:
+        """Weights that make what is left of every channel and joint 1. By which part the one that
+        changes most does."""
+        changed = 0.0
+        if self._around is not None and np.array_equal(self._around.values, values):
+            predicted = {name: made[:1] for name, made in self._around.predicted.items()}
+        else:
+            predicted = self.model.predict(self.parameters, values[None])
+            self.simulations += 1
         noise = weights_of(self.model)
         for name, values_of in predicted.items():
             apart = np.abs(values_of[0] - self.model.measured[name]).reshape(
@@ -225,7 +244,11 @@ class _Fit:
                              if np.isfinite(column).any() else 1.0 for column in apart.T])
             # Of efforts some are known within bounds alone, where a command changes.
             least = (0.5 if name == "effort" else 1e-3) / noise[name]
-            self.weights[name] = 1.0 / np.maximum(left, np.nan_to_num(least, nan=1.0))
+            made = 1.0 / np.maximum(left, np.nan_to_num(least, nan=1.0))
+            change = np.nan_to_num(np.abs(made / self.weights[name] - 1))
+            changed = max(changed, float(change.max(initial=0.0)))
+            self.weights[name] = made
+        return changed
 
 
 def look(model: Model, parameters: list[Parameter]) -> Identifiability:
@@ -259,7 +282,8 @@ def solve(model: Model, parameters: list[Parameter], *, solver: str = "gauss-new
                 values = _by_cma(fit, values, seed + fit.round)
             else:
                 values = _by_newton(optimize, fit, values)
-            fit.reweigh(values)
+            if fit.reweigh(values) < SETTLED:
+                break
     except KeyboardInterrupt:
         finished = False
         fit.state, fit.shown = State("", ""), (lambda *_: None)
@@ -326,9 +350,9 @@ def _by_newton(optimize: Any, fit: _Fit, values: Array) -> Array:
     scales = scales_of(fit.parameters, values)
     low, high = fit.low / scales, fit.high / scales
     at, damping, small = np.clip(values / scales, low, high), 1e-3, 0
-    enough = 1e-4 if fit.round + 1 == ROUNDS else 1e-3
+    enough = ENOUGH[min(fit.round, 1)]
     fit.settled = False
-    for _ in range(STEPS):
+    for _ in range(STEPS[min(fit.round, 1)]):
         apart, jacobian = fit.derivatives(at * scales)
         cost = cost_of(apart)
         weights = slopes_of(apart)
@@ -337,7 +361,13 @@ def _by_newton(optimize: Any, fit: _Fit, values: Array) -> Array:
         tried = np.stack([_step(optimize, triangle, wanted, damping * factor, low - at, high - at)
                           for factor in DAMPINGS])
         tried = np.clip(at + tried, low, high)
-        costs = [cost_of(row) for row in fit.apart(tried * scales)]
+        promised = cost - cost_of(apart + jacobian @ ((tried[0] - at) * scales))
+        if promised < enough * cost and damping <= 1:  # with much damping that says little
+            fit.settled = True
+            break
+        costs = [cost_of(row) for row in fit.apart(tried[:1] * scales)]
+        if cost - costs[0] < PROMISED * promised:
+            costs += [cost_of(row) for row in fit.apart(tried[1:] * scales)]
         best = int(np.argmin(costs))
         if costs[best] >= cost:
             if damping >= MOST_DAMPING:
@@ -348,7 +378,7 @@ def _by_newton(optimize: Any, fit: _Fit, values: Array) -> Array:
         at, gain = tried[best], 1 - costs[best] / cost
         damping = float(np.clip(damping * DAMPINGS[best] ** 0.5, 1e-6, MOST_DAMPING))
         small = small + 1 if gain < enough else 0
-        if small > (0 if best < 2 else 2):  # with much damping a small gain says little
+        if small > (0 if best < 2 else 2):
             fit.settled = True
             break
     return fit.clipped(at * scales)
