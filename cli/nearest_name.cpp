@@ -109,8 +109,9 @@ std::string file_advice(const std::string& file) {
   std::error_code error;
   const fs::path path = file;
   if (!fs::is_directory(path, error)) {
-    const std::string nearest =
-        nearest_name(path.filename().string(), files_in(path.parent_path()));
+    std::vector<std::string> others = files_in(path.parent_path());
+    std::erase(others, path.filename().string());  // there, and unreadable or a link to nothing
+    const std::string nearest = nearest_name(path.filename().string(), others);
     return nearest.empty()
                ? ""
                : "did you mean " + shown_path((path.parent_path() / nearest).string()) + "?";

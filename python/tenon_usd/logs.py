@@ -18,11 +18,14 @@ import json
 import os
 import sys
 import tempfile
+import zipfile
+import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from ._arrays import check_unpacked
 from .errors import check_file
 from .log import (
     AXES,
@@ -161,6 +164,7 @@ def _own_npz(arrays: Mapping[str, Any]) -> Log:
 
 
 def _read_npz(path: str) -> Log:
+    check_unpacked(path, os.stat(path).st_size)
     with np.load(path, allow_pickle=False) as file:
         arrays = {name: file[name] for name in file.files}
     if {"time", "columns", "values", "units"} <= set(arrays):
@@ -172,8 +176,11 @@ def _read_npz(path: str) -> Log:
         for what, axes in BODY.items():
             columns.update({f"{body}.{what}{axis}": arrays[ARRAYS[what]][:, i, k]
                             for k, axis in enumerate(axes)})
-    offsets = arrays["joint_offsets"].astype(int)
-    for i, joint in enumerate(_texts(arrays["joint_paths"])):
+    offsets, joints = arrays["joint_offsets"].astype(int), _texts(arrays["joint_paths"])
+    if len(offsets) != len(joints) + 1 or (np.diff(offsets, prepend=0) < 0).any() or \
+            offsets[-1] > arrays["joint_position"].shape[1]:
+        raise LogError("`joint_offsets` does not fit `joint_paths` and `joint_position`")
+    for i, joint in enumerate(joints):
         for what in ("position", "velocity"):
             for k, name in enumerate(_parts(joint, what, offsets[i + 1] - offsets[i])):
                 columns[name] = arrays[f"joint_{what}"][:, offsets[i] + k]
@@ -223,6 +230,9 @@ def _jsonl_contacts(lines: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None
     return {name: np.array([row[name] for row in rows]) for name in names}
 
 
+#: What damaged files raise, and those that only claim to hold much.
+DAMAGED = (ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, MemoryError,
+           NotImplementedError, OverflowError, csv.Error, zipfile.BadZipFile, zlib.error)
 #: What values raise that are not of the types that logs have.
 NOT_OURS = (ValueError, KeyError, TypeError, AttributeError, IndexError, OverflowError)
 
@@ -295,8 +305,8 @@ def read(path: str | os.PathLike[str]) -> Log:
     check_file(path)
     try:
         return READERS[ending](path)
-    except (LogError, ValueError, KeyError, IndexError) as error:
-        raise LogError(f"{path}: {error}") from error
+    except (LogError, *DAMAGED) as error:
+        raise LogError(f"{path}: {error or type(error).__name__}") from error
 
 
 # ---- writing

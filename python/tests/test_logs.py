@@ -11,6 +11,7 @@ TENON_EXTRAS=1: a library that is missing is a failure.
 
 import csv
 import importlib.util
+import io
 import json
 import os
 import pathlib
@@ -19,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 import numpy as np
 
@@ -176,6 +178,31 @@ class Logs(unittest.TestCase):
                 logs.read(path)
             self.assertIn(name, str(caught.exception))
         self.assertRaises(OSError, logs.read, self.folder / "gone.csv")
+
+    def test_damaged_and_lying_archives_are_no_log(self):
+        whole = (self.runs / "run.npz").read_bytes()
+        cut, empty, long = whole[:-100], b"", b'time,"' + b"a" * 200_000 + b'"\n1,2\n'
+        bent = bytearray(whole)
+        bent[200:400] = bytes(200)
+        with np.load(self.runs / "run.npz") as file:
+            arrays = {name: file[name] for name in file.files}
+        arrays["joint_offsets"] = np.array([0, *[10**9] * (len(arrays["joint_offsets"]) - 1)])
+        lying, bomb = io.BytesIO(), io.BytesIO()
+        np.savez(lying, **arrays)
+        with zipfile.ZipFile(bomb, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("time.npy", bytes(1000))
+        said = bytearray(bomb.getvalue())  # of its size in the table of contents
+        at = said.rindex(b"PK\x01\x02") + 24
+        said[at:at + 4] = (2**32 - 2).to_bytes(4, "little")
+        for name, contents in (("cut.npz", cut), ("empty.npz", empty), ("bent.npz", bytes(bent)),
+                               ("lying.npz", lying.getvalue()), ("bomb.npz", bytes(said)),
+                               ("long.csv", long)):
+            path = self.folder / name
+            path.write_bytes(contents)
+            with self.subTest(name), self.assertRaisesRegex(logs.LogError, name):
+                logs.read(path)
+
+    def test_what_cannot_be_read_or_written(self):
         self.assertRaises(logs.LogError, logs.write, self.log, self.folder / "a.xyz")
         self.assertRaises(OSError, logs.write, self.log, self.folder / "no/a.csv")
 

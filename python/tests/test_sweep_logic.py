@@ -21,6 +21,7 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 import numpy as np
 import sweep_source
@@ -371,6 +372,14 @@ class Resuming(Folder):
             os.mkfifo(chunks[6])
             self.sweep("-o", folder, code=1)
             self.assertEqual((folder / f"result.{form}").read_bytes(), whole)
+
+    def test_a_chunk_that_unpacks_to_too_much_is_none(self):
+        plan = load_plan(str(self.folder / "plan.toml"))
+        results = Results(str(self.folder / "r"), plan, "d", "npz")
+        run_on_threads(results, range(1), Stone, 1)
+        self.assertIsNotNone(results.read_chunk(0))
+        with mock.patch.multiple("tenon_usd._arrays", UNPACKED=10, UNPACKED_PER_BYTE=0):
+            self.assertIsNone(results.read_chunk(0))
 
     def test_results_of_another_plan_are_left_alone(self):
         self.sweep("-o", self.folder / "r", "--format", "csv", code=1)

@@ -72,6 +72,12 @@ Result<std::string> read_all(int descriptor, std::size_t size, const std::string
   if (const int error = read_up_to(descriptor, contents); error != 0) {
     return file_error(path, "cannot read the file", error);
   }
+  if (contents.size() < size) {
+    return Error(ErrorCode::Io, "the file got shorter while it was read")
+        .in_file(path)
+        .with_rule("file.unreadable")
+        .with_fix("try again when nobody writes it");
+  }
   return contents;
 }
 
@@ -108,7 +114,12 @@ Result<std::shared_ptr<const FileBytes>> FileBytes::open(const std::string& path
                                                          const FileRules& rules) {
   const OpenFile file(path);
   if (file.descriptor < 0) {
-    const Error error = file_error(path, "cannot open the file", errno);
+    const int number = errno;
+    std::error_code ignored;
+    const bool link = std::filesystem::is_symlink(path, ignored);
+    const Error error = file_error(
+        path, link ? "cannot open what this symbolic link leads to" : "cannot open the file",
+        number);
     note_missing(path);
     return error;
   }

@@ -118,6 +118,15 @@ TEST_F(FilesTest, AFolderOfLinksToItselfEndsTheWalk) {
   EXPECT_EQ(files_below(Files(), at("real"))->size(), 2u);
 }
 
+TEST_F(FilesTest, AFileThatGetsShorterIsNotReadInPart) {
+  const std::string shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // says 4,096 bytes
+  std::error_code error;
+  if (fs::file_size(shorter, error) < 4096 || error) {
+    GTEST_SKIP() << "no sysfs";
+  }
+  EXPECT_EQ(read(Files(), shorter), "(file.unreadable)");
+}
+
 TEST_F(FilesTest, MemoryHoldsFilesInFolders) {
   const Files files = Files::in_memory({{"/r/a.usda", text("A")},
                                         {"/r/deep/../deep/b.usda", text("B")},

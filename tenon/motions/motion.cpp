@@ -37,6 +37,9 @@ Result<Motion> run_motion(const Setup& setup, const MotionPlan& plan, Diagnostic
   motion.run = bake::run_simulation(simulation, setup.scene, run);
   motion.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (commands && !motion.run.failure && !motion.run.interrupted) {
+    bake::tell_rows_outside(*commands, motion.run.time, diagnostics);
+  }
   motion.has_contacts = options.outputs.contacts;
   motion.not_mapped = simulation.not_mapped();
   motion.events = simulation.events();

@@ -190,6 +190,40 @@ Error error_of(std::vector<Diagnostic> faults) {
   return std::move(error).with_further(std::move(faults));
 }
 
+/// A symbolic link counts also where it leads to nothing: somebody meant a file.
+bool has_settings(const std::string& file, const bytes::Files& files) {
+  std::error_code ignored;
+  return files->kind(file) != bytes::NameKind::Nothing ||
+         (files->is_on_disk(file) && std::filesystem::is_symlink(file, ignored));
+}
+
+/// The folder with `.git` that a folder is in; the folder itself where there is none.
+std::filesystem::path repository_of(const std::filesystem::path& folder,
+                                    const bytes::Files& files) {
+  std::filesystem::path at = folder;
+  while (files->kind(at / ".git") == bytes::NameKind::Nothing) {
+    if (at == at.parent_path()) {
+      return folder;
+    }
+    at = at.parent_path();
+  }
+  return at;
+}
+
+/// A link may not lead out of the repository.
+Result<void> check_inside(const std::string& real, const std::string& file,
+                          const bytes::Files& files) {
+  const std::filesystem::path repository =
+      repository_of(std::filesystem::path(file).parent_path(), files);
+  const std::string inside = (repository / "").string();
+  if (real.starts_with(inside)) {
+    return {};
+  }
+  return Error(ErrorCode::Invalid, "it is a symbolic link to " + real + ", outside of " + inside)
+      .with_rule("settings.outside")
+      .with_fix("put a copy of that file in its place");
+}
+
 }  // namespace
 
 const SkippedRule* Settings::skipped(std::string_view rule) const {
@@ -205,7 +239,7 @@ std::optional<std::string> find_settings(const std::string& asset, const bytes::
   std::optional<std::string> nearest;
   for (std::filesystem::path folder = own;; folder = folder.parent_path()) {
     const std::string file = folder / kFileName;
-    if (!nearest && files->kind(file) != bytes::NameKind::Nothing) {
+    if (!nearest && has_settings(file, files)) {
       nearest = file;
     }
     const bool decided = nearest && folder == own;
@@ -222,7 +256,12 @@ Result<Settings> read_settings(const std::string& file, const bytes::Files& file
   bytes::FileRules rules;
   rules.may_map = false;
   rules.max_bytes = limits::kSettingsBytes;
-  TENON_TRY(const auto contents, files->open(file, rules));
+  rules.check = [&](const std::string& real) { return check_inside(real, file, files); };
+  auto opened = files->open(file, rules);
+  if (!opened) {
+    return std::move(opened).error().in_file(file);
+  }
+  const auto contents = *std::move(opened);
   auto values = toml_values(contents->text());
   if (!values) {
     return std::move(values).error().in_file(file);

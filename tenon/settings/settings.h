@@ -34,12 +34,16 @@ struct Settings {
 };
 
 /// The settings file of an asset: the nearest one in its folder or above, up to the folder that has
-/// `.git`. Without such a folder only the asset's own is looked at. Nothing where there is none.
+/// `.git`, also one that is no file or a symbolic link to nothing. Without such a folder only the
+/// asset's own is looked at. Nothing where there is none.
 std::optional<std::string> find_settings(const std::string& asset, const bytes::Files& files);
 
-/// Errors: those of opening the file; Limit (file.too-large) above limits::kSettingsBytes; Parse
-/// (settings.syntax) for bad TOML; Invalid (settings.unknown-key, settings.type, settings.value)
-/// with every fault in `further`; Missing (settings.missing) in a build without a TOML parser.
+/// `file` is absolute, its folder without symbolic links, as find_settings gives it.
+/// Errors: those of opening the file; Limit (file.too-large) above limits::kSettingsBytes; Invalid
+/// (settings.outside) for a symbolic link that leads out of the folder that has `.git`, or where
+/// there is none out of its own; Parse (settings.syntax) for bad TOML; Invalid
+/// (settings.unknown-key, settings.type, settings.value) with every fault in `further`; Missing
+/// (settings.missing) in a build without a TOML parser.
 Result<Settings> read_settings(const std::string& file, const bytes::Files& files);
 
 /// Both: the settings that hold for an asset, nothing where it has none.

@@ -109,9 +109,20 @@ class Bench(unittest.TestCase):
                             "colliders.shape.radius=0.9..1")
         self.assertEqual(fields["scenes"], 3)
 
+    def test_an_object_is_named_by_its_path_or_the_last_element_of_it(self):
+        for what in ("bodyMass@{}=2", "bodyPosition@{}=0.1", "bodies.mass@{}=2",
+                     "colliderFriction@{}=2"):
+            by_path, by_name, none = (
+                self.bench(GRASP, "--envs", 1, "--duration", 0.02, *vary)["digest"]
+                for vary in (("--vary", what.format("/World/can")),
+                             ("--vary", what.format("can")), ()))
+            self.assertEqual(by_path, by_name, what)
+            self.assertNotEqual(by_path, none, what)
+
     def test_wrong_variations_are_told(self):
         for vary, said in (("beauty=1..2", "bodyMass"), ("gravity=2..1", "range"),
                            ("gravity", "not a variation"), ("bodyMass@/none=1", "nothing at"),
+                           ("bodyMass@shed=1", "nothing at"),
                            ("joints.upper=2", "nothing of the asset"),
                            ("bodyMass@=1", "no path")):
             run = self.run_tenon(self.file, "--envs", 2, "--duration", 0.1, "--vary", vary)

@@ -295,6 +295,17 @@ class Compare(unittest.TestCase):
         told = json.loads((self.folder / "report.json").read_text())
         self.assertAlmostEqual(self.gap(told, "position")["largest"], float(position["largest"]))
 
+    def test_commands_outside_of_the_run_are_told_like_those_of_sim(self):
+        table = self.folder / "c.csv"
+        for verb in ("sim", "compare"):
+            words = (self.scene(), "--duration", 0.1, "--commands", table)
+            table.write_text("time,/World/Arm/shoulder.target\n-1,0\n0.01,1\n5,2\n")
+            told = self.run_tenon(verb, *words).stderr
+            self.assertIn("1 of 3 rows of commands are before time 0", told)
+            self.assertIn("the run ends at 0.1 s, before 5 s", told)
+            table.write_text("time,/World/Arm/shoulder.target\n0,0\n0.1,1\n")
+            self.assertNotIn("sim.commands", self.run_tenon(verb, *words).stderr)
+
     def test_an_engine_that_is_not_there_is_told(self):
         run = self.run_tenon("compare", self.scene(), "--engines", "mujoco,bullet")
         self.assertEqual(run.returncode, 2)

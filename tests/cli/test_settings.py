@@ -220,6 +220,25 @@ class Wrong(Case):
         told = self.json("check", self.scene, code=2)["diagnostics"]
         self.assertEqual(told[0]["rule"], "file.too-large")
 
+    def test_a_link_to_nothing_or_out_of_the_repository_is_refused(self):
+        outside, link = self.root.parent / "other.toml", self.root / "a/tenon.toml"
+        scene = self.write("a/scene.usda", SCENE)
+        self.settings("")  # which does not count in its place
+        outside.write_text('engine = "mujoco"\n')
+        for target, rule, part in (("nowhere", "file.not-found", "this symbolic link leads to"),
+                                   ("tenon.toml", "file.unreadable", "this symbolic link"),
+                                   (outside, "settings.outside", "outside of")):
+            link.symlink_to(target)
+            for verb in (["check"], ["sim", "--duration", "0.01"]):
+                told = self.json(*verb, scene, code=2)["diagnostics"][0]
+                self.assertEqual((told["rule"], told["file"]), (rule, "a/tenon.toml"), told)
+                self.assertIn(part, told["message"])
+                self.assertNotIn("did you mean", told["fix"] or "")
+                self.json(*verb, scene, "--no-settings")
+            link.unlink()
+        link.symlink_to("../tenon.toml")
+        self.assertEqual(self.json("check", scene)["assets"][0]["settings"], "a/tenon.toml")
+
     def test_a_wrong_file_leaves_all_files_alone(self):
         self.settings("x = 1\n", "b/tenon.toml")
         for name in ("a/x.usda", "b/x.usda"):

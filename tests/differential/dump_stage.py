@@ -29,6 +29,8 @@ import suite as measured  # noqa: E402  pylint: disable=wrong-import-position
 SHARED = measured.SHARED
 MISSES = os.path.join(HERE, "dump_misses.txt")
 PROJECT_STEP = 11  # one in so many of the project's layers
+# Planted for a limit on purpose below OpenUSD's (docs/limits.md), so the dumps cannot agree.
+PLANTED_FOR_LIMITS = ("compose.index-capacity-exceeded.usda",)
 # Of random scenes, others than stage_random.py draws; OpenUSD passes its own checks on these.
 PROJECT_SEEDS = range(500_006, 500_015)
 STAGE_SUITES = ("openusd_usd", "mxpv_fixtures", "tinyusdz", "physics_parse", "openusd_other")
@@ -83,6 +85,8 @@ def project_cases(folder):
     import random_scenes  # pylint: disable=import-outside-toplevel
 
     for path in measured.own_layers(PROJECT_STEP):
+        if os.path.basename(path) in PLANTED_FOR_LIMITS:
+            continue
         yield Case("project " + os.path.relpath(path, REPO), path, OWN_OPTIONS)
     for seed in PROJECT_SEEDS:
         inside = os.path.join(folder, f"scene_{seed}")

@@ -25,6 +25,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import check_unpacked
 from ..errors import check_file
 from .cases import ExtraMissing
 from .plan import Plan
@@ -129,6 +130,7 @@ def _encode_npz(columns: Sequence[tuple[str, type]], rows: Sequence[Row], digest
 
 
 def _decode_npz(contents: bytes) -> tuple[list[Row], str]:
+    check_unpacked(io.BytesIO(contents), len(contents))
     with np.load(io.BytesIO(contents), allow_pickle=False) as file:
         names = [str(name) for name in file["columns"]]
         arrays = [file[f"column{at:04}"].tolist() for at in range(len(names))]

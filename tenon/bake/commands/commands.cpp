@@ -12,6 +12,9 @@
 
 #include "tenon/bake/commands/commands_from_csv.h"
 #include "tenon/bake/commands/commands_from_npz.h"
+#include "tenon/base/text/grouped_digits.h"
+#include "tenon/base/text/rounded_text.h"
+#include "tenon/base/text/text_number.h"
 #include "tenon/bytes/zip/zip_archive.h"
 
 namespace tenon::bake {
@@ -31,6 +34,31 @@ Result<Commands> read_commands(const std::shared_ptr<const bytes::FileBytes>& fi
         .with_fix("give rows with a time and a number below the name of a joint's .target");
   }
   return commands;
+}
+
+void tell_rows_outside(const Commands& commands, double end, Diagnostics& diagnostics) {
+  const std::vector<double>& times = commands.times;
+  const auto tell = [&](std::ptrdiff_t count, const std::string& what, const char* fix) {
+    if (count != 0) {
+      Diagnostic finding;
+      finding.severity = Severity::Warning;
+      finding.rule = "sim.commands";
+      finding.message = grouped_digits(static_cast<std::size_t>(count)) + " of " +
+                        grouped_digits(times.size()) + " rows of commands " + what;
+      finding.fix = fix;
+      diagnostics.add(std::move(finding));
+    }
+  };
+  const auto start = std::lower_bound(times.begin(), times.end(), 0.0);
+  tell(start - times.begin(), "are before time 0, and hold from there like a row of time 0",
+       "count the times from 0, where the simulation starts");
+  const auto late = std::upper_bound(times.begin(), times.end(), end + 1e-9 * std::abs(end));
+  if (late != times.end()) {
+    tell(times.end() - late,
+         "are not given: the run ends at " + rounded_text(end) + " s, before " +
+             rounded_text(*late) + " s",
+         "give a longer --duration, or those rows to a run that goes on with --state-in");
+  }
 }
 
 CommandPlayer::CommandPlayer(const Commands& commands, const scene::PhysicsScene& scene,

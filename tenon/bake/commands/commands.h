@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tenon/base/diagnostics.h"
 #include "tenon/base/result.h"
 #include "tenon/bytes/file_bytes.h"
 #include "tenon/engines/simulation.h"
@@ -41,6 +42,10 @@ struct Commands {
 Result<Commands> read_commands(const std::shared_ptr<const bytes::FileBytes>& file,
                                const scene::PhysicsScene& scene,
                                const engines::Simulation& simulation);
+
+/// Warnings (sim.commands) about rows of a run that went on until `end` [s]: those before time 0,
+/// where no run is, and those after the end, which nothing was given.
+void tell_rows_outside(const Commands& commands, double end, Diagnostics& diagnostics);
 
 /// Gives commands to a simulation as its time goes on. Its arguments must outlive it.
 class CommandPlayer {

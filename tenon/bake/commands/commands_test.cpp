@@ -92,6 +92,27 @@ TEST(Commands, ARowHoldsFromTheFirstStepAtItsTimeAndKeepsWhatTheAssetHas) {
   EXPECT_EQ(simulation.set[1].numbers, (std::vector<double>{0, 7}));
 }
 
+TEST(Commands, RowsOutsideOfTheRunAreTold) {
+  const auto told = [](std::vector<double> times) {
+    Commands commands;
+    commands.times = std::move(times);
+    Diagnostics found;
+    tell_rows_outside(commands, 0.3, found);
+    std::string all;
+    for (const Diagnostic& finding : found) {
+      EXPECT_EQ(finding.rule, "sim.commands");
+      all += finding.message + "; ";
+    }
+    return all;
+  };
+  EXPECT_EQ(told({0, 0.1, 0.1 + 0.2}), "");
+  EXPECT_EQ(told({-2, -1, 0.1}),
+            "2 of 3 rows of commands are before time 0, and hold from there like a row of time "
+            "0; ");
+  EXPECT_EQ(told({0, 5, 6, 7}),
+            "3 of 4 rows of commands are not given: the run ends at 0.3 s, before 5 s; ");
+}
+
 TEST(Rest, IsToldOnceItHasLastedAndAllCommandsAreGiven) {
   scene::PhysicsScene scene = driven_scene();
   scene.bodies.resize(1);

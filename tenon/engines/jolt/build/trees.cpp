@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The joints of the scene's own forest are held tree by tree (TreeHolder), except cones, which
-// Jolt's constraints bound, and trees that are too deep for it: chains of hundreds of links, whose
-// inertia has an entry for each pair of links. A joint that broke acts no longer, and ends a tree.
+// Jolt's constraints bound, and trees that are too deep or too large for it: chains of hundreds of
+// links, whose inertia has an entry for each pair of links, and stars, where each drive keeps what
+// it does to each body. A joint that broke acts no longer, and ends a tree.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -18,7 +19,8 @@ namespace {
 using scene::Index;
 using scene::Joint;
 
-constexpr std::size_t kDeepest = 64;  ///< bodies from a root to a leaf
+constexpr std::size_t kDeepest = 64;   ///< bodies from a root to a leaf
+constexpr std::size_t kLargest = 500;  ///< bodies of a tree
 
 bool has_cone(const Joint& joint) {
   return joint.kind == scene::JointKind::Spherical &&
@@ -51,12 +53,14 @@ Places find_places(const Build& build) {
   Places places;
   places.root.resize(build.scene.bodies.size());
   places.depth.assign(build.scene.bodies.size(), 0);
+  std::vector<std::size_t> sizes(build.scene.bodies.size(), 0);
   for (const Index body : build.forest.order) {
     const std::optional<Index>& parent = build.forest.bodies[body].parent;
     const bool hangs = joint_above(build, body).has_value() && parent.has_value();
     places.root[body] = hangs ? places.root[*parent] : body;
     places.depth[body] = hangs ? places.depth[*parent] + 1 : 0;
-    if (places.depth[body] >= kDeepest || has_locks(build.scene.bodies[body])) {
+    const bool large = ++sizes[places.root[body]] > kLargest;
+    if (large || places.depth[body] >= kDeepest || has_locks(build.scene.bodies[body])) {
       places.left_out.insert(places.root[body]);
     }
   }
