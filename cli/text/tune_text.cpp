@@ -65,9 +65,13 @@ std::string changed(const Json& drive, const char* name) {
   return now == then ? now : now + " -> " + then;
 }
 
-bool any_drive(const Json& tuned) {
-  return std::any_of(tuned["drives"].begin(), tuned["drives"].end(),
-                     [](const Json& drive) { return !drive["type"].is_null(); });
+/// None of the joints has a drive, and some could.
+bool lacks_drives(const Json& tuned) {
+  const Json& drives = tuned["drives"];
+  return std::all_of(drives.begin(), drives.end(),
+                     [](const Json& drive) { return drive["type"].is_null(); }) &&
+         std::any_of(drives.begin(), drives.end(),
+                     [](const Json& drive) { return drive["whyNot"] == "no drive"; });
 }
 
 std::string notes_of(const Json& drive) {
@@ -207,9 +211,12 @@ std::string tune_text(const Json& tuned, bool saved) {
   }
   const JointNames names(tuned);
   std::string text = drives_text(tuned, names);
-  if (tuned["wished"].get<bool>() && tuned["request"].empty()) {
-    const std::string advice = "tenon set ASSET --drive JOINT=stiffness:10,damping:1 adds a drive";
-    text += any_drive(tuned) ? "nothing changes\n" : "nothing to tune; " + advice + "\n";
+  if (lacks_drives(tuned)) {
+    const std::string advice =
+        "to give each one: tenon add ASSET '.*=drive' --match --stiffness 10 --damping 1";
+    text += "no joint here has a drive; " + advice + "\n";
+  } else if (tuned["wished"].get<bool>() && tuned["request"].empty()) {
+    text += "nothing changes\n";
   } else if (tuned["wished"].get<bool>() && !saved) {
     text += "nothing is written: --save does that\n";
   }

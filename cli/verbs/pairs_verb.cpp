@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Without --filter and --unfilter the pairs are listed. With one of them the pairs are looked for
-// only where a word chooses among them, and all edits are one step. In a dry run standard output is
-// the difference alone. Reading, looking, editing and writing are repeated together when a file
-// changed meanwhile.
+// Without --filter, --unfilter and --self-collision the pairs are listed. With one of them the
+// pairs are looked for only where a word chooses among them, and all edits are one step. In a dry
+// run standard output is the difference alone. Reading, looking, editing and writing are repeated
+// together when a file changed meanwhile.
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,6 +34,7 @@ struct PairsArguments {
   bool environment = false;
   bool all = false;
   PairsRequest request;
+  std::string self_collision;  ///< "on" or "off"; empty: as it is
   bool dry_run = false;
   std::string srdf;
   FileAccess files;
@@ -99,8 +100,10 @@ int run_list(const PairsArguments& arguments, Report& report) {
 
 // ---- edits
 
-void tell_filtered(const PairsEdits& made, const Report& report) {
-  if (made.chosen == 0 && made.edits.empty()) {
+void tell_filtered(const PairsArguments& arguments, const PairsEdits& made, const Report& report) {
+  if (arguments.request.filter.empty() && made.edits.empty()) {
+    report.note("self-collision is " + arguments.self_collision + " already: nothing to write");
+  } else if (made.chosen == 0 && made.edits.empty()) {
     report.note("no pairs are chosen: nothing to filter");
   } else if (made.chosen > 0 && made.filtered == made.chosen) {
     report.note("nothing to filter: " + counted(made.chosen, "chosen pair") +
@@ -123,7 +126,7 @@ Result<EditedAsset> edit(const PairsArguments& arguments, Report& report,
                   : bodies_of_asset(arguments.asset, options.open, report.diagnostics));
     TENON_TRY(PairsEdits made,
               pairs_edits(arguments.asset, pairs, arguments.request, options, report.diagnostics));
-    tell_filtered(made, report);
+    tell_filtered(arguments, made, report);
     edits = std::move(made.edits);
     if (edits.empty()) {
       return EditedAsset();
@@ -151,7 +154,8 @@ int run_pairs(const Globals& globals, const PairsArguments& arguments) {
   }
   if (!arguments.srdf.empty()) {
     return report.fail(
-        Error(ErrorCode::Invalid, "--srdf writes what is found, --filter and --unfilter change it")
+        Error(ErrorCode::Invalid,
+              "--srdf writes what is found; --filter, --unfilter and --self-collision change it")
             .with_rule("pairs.two-tasks")
             .with_fix("ask for one of them first, then for the other"));
   }
@@ -168,11 +172,15 @@ constexpr const char* kPairsFooter =
     "bodies or colliders by path, bodies also by a name that no other has; or a file of pairs, a "
     ".srdf, or a .json as --json prints it. All pairs are written in one edit, to the file that "
     "owns them (physics.usda in the structure 3.0), which tenon undo takes back.\n\n"
+    "With self-collision off, as robots of URDF have it unless converted with --self-collision on, "
+    "links of a robot touch nothing of it; --self-collision on turns it on in the files of all "
+    "engines.\n\n"
     "Examples:\n"
     "  tenon pairs hand.usda\n"
     "  tenon pairs hand.usda --filter always,default --dry-run\n"
     "  tenon pairs hand.usda --filter /hand/palm,/hand/thumb\n"
     "  tenon pairs hand.usda --unfilter /hand/palm,/hand/thumb\n"
+    "  tenon pairs hand.usda --self-collision on --filter always,default\n"
     "  tenon pairs hand.usda --sample 10000 --srdf hand.srdf";
 
 void add_search_options(const Command& verb, PairsArguments& options) {
@@ -186,7 +194,7 @@ void add_search_options(const Command& verb, PairsArguments& options) {
       .not_with({"--sample=0"});
   verb.add_flag("--environment", options.environment, "Static colliders, too");
   verb.add_flag("--all", options.all, "List pairs that never touch, too (also with -v)")
-      .not_with({"--filter", "--unfilter"});
+      .not_with({"--filter", "--unfilter", "--self-collision"});
   verb.add_option("--srdf", options.srdf,
                   "Write the pairs whose collisions MoveIt need not look at, with reasons")
       .value_name("OUT.srdf");
@@ -209,14 +217,22 @@ void add_pairs(const Command& parent, const Globals& globals, Chosen& chosen) {
                   "A,B: remove the filtered pair from the prim that lists it")
       .repeatable()
       .value_name("A,B");
+  verb.add_option("--self-collision", options->self_collision,
+                  "Whether links of articulations touch each other, for all engines")
+      .one_of({"on", "off"});
   verb.add_flag("--dry-run", options->dry_run, "Print the difference, write nothing")
-      .only_with({"--filter", "--unfilter"});
+      .only_with({"--filter", "--unfilter", "--self-collision"});
   verb.add_option("--physics", options->physics,
                   "The variant of \"Physics\" that is looked at, and in which edits have to count, "
                   "or PRIM=VARIANT");
   options->files.add_to(verb);
   verb.footer(kPairsFooter);
-  choose(verb, chosen, [&globals, options] { return run_pairs(globals, *options); });
+  choose(verb, chosen, [&globals, options] {
+    if (!options->self_collision.empty()) {
+      options->request.self_collision = options->self_collision == "on";
+    }
+    return run_pairs(globals, *options);
+  });
 }
 
 }  // namespace tenon::cli

@@ -5,6 +5,7 @@
 // in the order of the environments, so that no result depends on threads. Each call lets other
 // threads of Python run, and then waits for its turn with the batch.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -295,11 +296,28 @@ nb::object body_poses(Batch& batch) {
 }
 
 /// (size, 7) and (size, 6) of one body.
+/// Whether a state reads as these numbers.
+bool is_at(const engines::BodyState& state, const double* pose, const double* velocity) {
+  std::array<double, 13> held{};
+  double* to = held.data();
+  put(state.pose.position, to);
+  put(state.pose.orientation, to);
+  put(state.linear_velocity, to);
+  put(state.angular_velocity, to);
+  return std::equal(held.begin(), held.begin() + 7, pose) &&
+         std::equal(held.begin() + 7, held.end(), velocity);
+}
+
+/// Where nothing changes nothing is set: engines begin the contacts of a body that is set anew.
 void set_body(Batch& batch, scene::Index body, const Numbers& poses, const Numbers& velocities) {
   const auto p = span_of(poses, batch.size() * 7);
   const auto v = span_of(velocities, batch.size() * 6);
   or_raise(with(batch, [&] {
-    return each(batch, [&](std::size_t i, World& world) {
+    return each(batch, [&](std::size_t i, World& world) -> Result<void> {
+      if (body < batch.scene->bodies.size() &&
+          is_at(world.body_state(body), p.data() + 7 * i, v.data() + 6 * i)) {
+        return {};
+      }
       return world.set_body_state(body, {pose_at(p.data() + 7 * i), vector_at(v.data() + 6 * i),
                                          vector_at(v.data() + 6 * i + 3)});
     });

@@ -18,8 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A block is as long as this, so that a signal waits for kBetweenLooks and one block at most.
-constexpr std::chrono::milliseconds kBlock{10};
+/// A block is as long as this up to twice as long, so that a signal waits for kBetweenLooks and one
+/// block at most. The longer it is, the more steps of one environment find its state in the cache.
+constexpr std::chrono::milliseconds kBlock{20};
 constexpr std::size_t kMostSteps = 1u << 20;
 
 std::atomic<std::size_t>& running_calls() {
@@ -69,9 +70,9 @@ std::size_t BlockStepper::step(engines::Environments& environments, std::size_t 
       return failed;
     }
     const auto taken = Clock::now() - begun;
-    block_ = taken > 2 * kBlock   ? std::max<std::size_t>(block_ / 2, 1)
-             : taken < kBlock / 2 ? std::min(block_ * 2, kMostSteps)
-                                  : block_;
+    block_ = taken > 2 * kBlock ? std::max<std::size_t>(block_ / 2, 1)
+             : taken < kBlock   ? std::min(block_ * 2, kMostSteps)
+                                : block_;
     interruptions_.look();
   }
 }

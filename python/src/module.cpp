@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include "batch.h"
+#include "drive_functions.h"
 #include "failure.h"
 #include "functions.h"
 #include "opened_stage.h"
@@ -23,4 +24,5 @@ NB_MODULE(_tenon, module) {
   tenon::python::bind_overlaps(module);
   tenon::python::bind_batch(module);
   tenon::python::bind_functions(module);
+  tenon::python::bind_drive_functions(module);
 }

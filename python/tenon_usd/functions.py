@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _tenon
+from ._lists import no_such
 from .errors import InvalidError
 from .options import OpenOptions, PathLike, arguments_of, list_of, path_of
 
@@ -97,7 +98,7 @@ def rule(name: str) -> str:
     """The page of a rule, as text: rule("joint.body-missing"). Raises KeyError for others."""
     page = _tenon.rule_page(name)
     if not page:
-        raise KeyError(name)
+        raise KeyError(no_such(name, [str(row["rule"]) for row in rules()]))
     return page
 
 
@@ -268,9 +269,19 @@ def _check_robot(start: str, density: float | None) -> None:
         raise ValueError(f"density is {density!r}; expected above 0, up to 1e6 kg/m^3")
 
 
+def _gains_text(pair: Any) -> str:
+    """K,D as the library takes them. Raises TypeError for what are no two numbers."""
+    try:
+        stiffness, damping = map(float, pair)
+    except (TypeError, ValueError):
+        raise TypeError(f"gains are two numbers (K, D), or such pairs by joint, not {pair!r}"
+                        ) from None
+    return f"{stiffness!r},{damping!r}"
+
+
 def _robot_rules(gains: Any, armature: Any, friction: Any, collision: Any) -> dict[str, list[str]]:
     return {
-        "gains": _rules(gains or None, lambda pair: f"{float(pair[0])!r},{float(pair[1])!r}"),
+        "gains": _rules(gains or None, _gains_text),
         "armature": _rules(armature, lambda value: repr(float(value))),
         "friction": _rules(friction, lambda value: repr(float(value))),
         "collision": _rules(collision, str),

@@ -88,7 +88,71 @@ bool is_within(const scene::FreeDof& dof, double value) {
   return false;
 }
 
+/// Limits may hold a rotation after a whole turn of it.
+double turned_inside(const scene::FreeDof& dof, double value) {
+  constexpr double kTurn = 2 * M_PI;
+  for (const double shifted : {value, value + kTurn, value - kTurn}) {
+    if (is_angular(dof.dof) && shifted >= dof.lower && shifted <= dof.upper) {
+      return shifted;
+    }
+  }
+  return dof.lower <= dof.upper ? std::clamp(value, dof.lower, dof.upper) : value;
+}
+
 }  // namespace
+
+void keep_in_cone(const scene::Joint& joint, const scene::JointDofs& dofs,
+                  std::vector<double>& values) {
+  const double cone = scene::circular_cone(joint);
+  if (!dofs.ball || !std::isfinite(cone)) {
+    return;
+  }
+  const std::size_t first = dofs.free.size();
+  const Vec3d turn{{values[first], values[first + 1], values[first + 2]}};
+  const Quatd rotation =
+      length(turn) > 0 ? rotation_about(normalized(turn), length(turn)) : kIdentityRotation;
+  const Vec3d axis = scene::unit_axis(joint.axis);
+  const Vec3d leans = rotate(rotation, axis);
+  const Vec3d back = cross(leans, axis);
+  const double tilt = std::atan2(length(back), dot(leans, axis));
+  if (tilt > cone && length(back) > 0) {
+    const Vec3d kept =
+        rotation_vector(normalized(rotation_about(normalized(back), tilt - cone) * rotation));
+    std::copy(kept.v.begin(), kept.v.end(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+Posture inside_limits(const Multibody& multibody, const Posture& from,
+                      const std::vector<bool>& joints) {
+  std::vector<std::vector<double>> inside = from.joints;
+  for (Index j = 0; j < inside.size(); ++j) {
+    const scene::JointDofs& dofs = multibody.dofs()[j];
+    for (std::size_t i = 0; joints[j] && i < dofs.free.size(); ++i) {
+      inside[j][i] = turned_inside(dofs.free[i], inside[j][i]);
+    }
+    if (joints[j]) {
+      keep_in_cone(multibody.scene().joints[j], dofs, inside[j]);
+    }
+  }
+  return inside == from.joints ? from : multibody.moved(from, std::move(inside));
+}
+
+Posture start_inside_limits(const Multibody& multibody) {
+  constexpr double kOutside = 1e-6;  // [rad or m]
+  const Posture start = multibody.start();
+  std::vector<bool> trees;
+  for (const scene::ForestRole role : multibody.forest().joints) {
+    trees.push_back(role == scene::ForestRole::Tree);
+  }
+  Posture inside = inside_limits(multibody, start, trees);
+  bool beyond = false;
+  for (Index j = 0; j < trees.size(); ++j) {
+    for (std::size_t i = 0; trees[j] && i < start.joints[j].size(); ++i) {
+      beyond = beyond || std::abs(inside.joints[j][i] - start.joints[j][i]) > kOutside;
+    }
+  }
+  return beyond && DrawnPostures(multibody).is_possible(inside) ? inside : start;
+}
 
 DrawnPostures::DrawnPostures(const Multibody& multibody)
     : multibody_(&multibody), start_(multibody.start()) {

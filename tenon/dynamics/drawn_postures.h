@@ -10,6 +10,20 @@
 
 namespace tenon::dynamics {
 
+/// Tilts the axis of a ball back into its cone; `values` are the coordinates of the joint.
+void keep_in_cone(const scene::Joint& joint, const scene::JointDofs& dofs,
+                  std::vector<double>& values);
+
+/// `from` with the coordinates of these joints (joint_count) put inside their limits: by a whole
+/// turn where that is enough, else to the nearer bound, and balls back into their cones. Followers
+/// and loops go along as in Multibody::moved, without a look at their limits.
+Posture inside_limits(const Multibody& multibody, const Posture& from,
+                      const std::vector<bool>& joints);
+
+/// The start, with joints of trees that are outside of their limits by more than 1e-6 rad or m put
+/// inside, as engines push them; the start itself where loops do not close there.
+Posture start_inside_limits(const Multibody& multibody);
+
 /// Postures of the trees of a scene, drawn within the limits of its joints. Each number of a seed
 /// is a posture of its own, whichever others are drawn, on every machine.
 ///

@@ -16,6 +16,7 @@
 #include "tenon/base/text/nearest_name.h"
 #include "tenon/base/text/quoted_text.h"
 #include "tenon/base/text/text_number.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/scene/joint_freedom.h"
 
 namespace tenon::dynamics {
@@ -184,6 +185,14 @@ void start_from(scene::PhysicsScene& scene, const Multibody& multibody, const Po
     if (is_single && (joint.initial_position || std::abs(posture.joints[j][0]) > M_PI)) {
       joint.initial_position = posture.joints[j][0];
     }
+  }
+}
+
+void start_inside_limits(scene::PhysicsScene& scene) {
+  const Multibody multibody(scene);
+  const Posture inside = start_inside_limits(multibody);
+  if (inside.joints != multibody.start().joints) {
+    start_from(scene, multibody, inside);
   }
 }
 

@@ -23,7 +23,10 @@ Result<Posture> posture_from_texts(const Multibody& multibody,
 /// of their own. Drives keep their targets. `multibody` is that of the scene.
 void start_from(scene::PhysicsScene& scene, const Multibody& multibody, const Posture& posture);
 
-/// The same with posture_from_texts. Errors: those of it.
+/// Lets the scene start inside the limits of its joints, as the other one in drawn_postures.h does.
+void start_inside_limits(scene::PhysicsScene& scene);
+
+/// start_from with posture_from_texts. Errors: those of it.
 Result<void> start_at(scene::PhysicsScene& scene, const std::vector<std::string>& texts);
 
 }  // namespace tenon::dynamics

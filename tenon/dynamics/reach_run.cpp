@@ -15,6 +15,7 @@
 #include <Eigen/Dense>
 
 #include "tenon/dynamics/constraints.h"
+#include "tenon/dynamics/drawn_postures.h"
 #include "tenon/dynamics/loop_closure.h"
 #include "tenon/scene/joint_freedom.h"
 
@@ -212,56 +213,6 @@ VectorXd bounded_step(const StepProblem& problem, const std::vector<FreeColumn>&
   return longest > kLongestTurn ? VectorXd(step * (kLongestTurn / longest)) : step;
 }
 
-/// Tilts a ball's axis back into its cone.
-void keep_in_cone(const scene::Joint& joint, const JointDofs& dofs, std::vector<double>& values) {
-  const double cone = scene::circular_cone(joint);
-  if (!dofs.ball || !std::isfinite(cone)) {
-    return;
-  }
-  const std::size_t first = dofs.free.size();
-  const Vec3d turn{{values[first], values[first + 1], values[first + 2]}};
-  const Quatd rotation =
-      length(turn) > 0 ? rotation_about(normalized(turn), length(turn)) : kIdentityRotation;
-  const Vec3d axis = scene::unit_axis(joint.axis);
-  const Vec3d leans = rotate(rotation, axis);
-  const Vec3d back = cross(leans, axis);
-  const double tilt = std::atan2(length(back), dot(leans, axis));
-  if (tilt > cone && length(back) > 0) {
-    const Vec3d kept =
-        rotation_vector(normalized(rotation_about(normalized(back), tilt - cone) * rotation));
-    std::copy(kept.v.begin(), kept.v.end(), values.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-}
-
-/// A rotation is the same after a whole turn, which limits may not be.
-double turned_inside(const scene::FreeDof& dof, double value) {
-  constexpr double kTurn = 2 * M_PI;
-  for (const double shifted : {value, value + kTurn, value - kTurn}) {
-    if (is_angular(dof.dof) && shifted >= dof.lower && shifted <= dof.upper) {
-      return shifted;
-    }
-  }
-  return dof.lower <= dof.upper ? std::clamp(value, dof.lower, dof.upper) : value;
-}
-
-/// Coordinates of the joints that may move, put inside their bounds.
-Posture inside(const ReachTask& task, const Posture& from) {
-  if (task.limits == KeepLimits::No) {
-    return from;
-  }
-  std::vector<std::vector<double>> joints = from.joints;
-  for (Index j = 0; j < joints.size(); ++j) {
-    const JointDofs& dofs = task.multibody->dofs()[j];
-    for (std::size_t i = 0; task.moves[j] && i < dofs.free.size(); ++i) {
-      joints[j][i] = turned_inside(dofs.free[i], joints[j][i]);
-    }
-    if (task.moves[j]) {
-      keep_in_cone(task.multibody->scene().joints[j], dofs, joints[j]);
-    }
-  }
-  return joints == from.joints ? from : task.multibody->moved(from, std::move(joints));
-}
-
 /// By how much a coordinate that may move is beyond a bound, at most [m or rad].
 double beyond_limits(const ReachTask& task, const Posture& posture) {
   double worst = 0;
@@ -440,7 +391,8 @@ std::vector<AtLimit> at_limits(const Multibody& multibody, const Posture& postur
 }
 
 ReachRun reach_from(const ReachTask& task, const Posture& from) {
-  return Search(task, inside(task, from)).run();
+  const bool keeps = task.limits == KeepLimits::Yes;
+  return Search(task, keeps ? inside_limits(*task.multibody, from, task.moves) : from).run();
 }
 
 }  // namespace tenon::dynamics

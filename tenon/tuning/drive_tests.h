@@ -93,11 +93,12 @@ enum class StepCause : std::uint8_t {
   JointLimits,  ///< a joint starts beyond one, or meets it
   Friction,     ///< of joints
   MaxForce,     ///< the drive, or another one, is at its bound
+  FreeJoints,   ///< joints that nothing drives move along
   OtherDrives,  ///< they give way
   Gravity,
 };
 /// "time-step", "self-collision", "velocity-limit", "joint-limits", "friction", "max-force",
-/// "other-drives", "gravity".
+/// "free-joints", "other-drives", "gravity".
 std::string_view cause_name(StepCause cause);
 
 /// A step beside its form.

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The second-order form knows one mass on one spring and damper. A step that is not by it runs
-// again without all that a robot has beside these: bounds, friction, weight, contacts, other drives
-// that give way, at last with finer steps. If that run is by the form, these come back, first what
-// rarely is the cause, and what cannot come back is it: the last run is without it, and by the
-// form.
+// again without all that a robot has beside these: bounds, friction, weight, contacts, joints that
+// nothing drives, other drives that give way, at last with finer steps. If that run is by the form,
+// these come back, first what rarely is the cause, and what cannot come back is it: the last run is
+// without it, and by the form.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +14,8 @@
 
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/rounded_text.h"
+#include "tenon/scene/joint_forest.h"
+#include "tenon/scene/start_coordinate.h"
 #include "tenon/tuning/rig.h"
 
 namespace tenon::tuning {
@@ -33,6 +35,7 @@ constexpr std::array kCauses{
     NamedCause{StepCause::JointLimits, "joint-limits", "limits of joints"},
     NamedCause{StepCause::Friction, "friction", "friction of joints"},
     NamedCause{StepCause::MaxForce, "max-force", "maxForce"},
+    NamedCause{StepCause::FreeJoints, "free-joints", "joints that nothing drives"},
     NamedCause{StepCause::OtherDrives, "other-drives", "other drives that give way"},
     NamedCause{StepCause::Gravity, "gravity", "gravity"},
 };
@@ -49,7 +52,56 @@ constexpr unsigned kRareCauses = bit_of(StepCause::SelfCollision) |
 
 bool has_cause(unsigned causes, StepCause cause) { return (causes & bit_of(cause)) != 0; }
 
-scene::PhysicsScene scene_without(const scene::PhysicsScene& scene, unsigned causes) {
+/// Joints of trees that no drive holds in place, and that no mimic or loop ties to others.
+std::vector<Index> free_joints(const scene::PhysicsScene& scene,
+                               const std::vector<DriveRow>& rows) {
+  const scene::JointForest forest = scene::joint_forest(scene);
+  std::vector<char> tied(scene.bodies.size(), 0);  // by island
+  const auto island_of = [&](const scene::Joint& joint) {
+    return forest.bodies[joint.body1 ? *joint.body1 : *joint.body0].island;
+  };
+  for (const Index loop : forest.loop_joints) {
+    tied[island_of(scene.joints[loop])] = 1;
+  }
+  std::vector<char> held(scene.joints.size(), 0);
+  for (const DriveRow& row : rows) {
+    held[row.joint] = held[row.joint] != 0 || row.position_drive() ? 1 : 0;
+  }
+  for (const scene::Joint& joint : scene.joints) {
+    for (const scene::Mimic& mimic : joint.mimics) {
+      held[mimic.leader] = 1;
+    }
+  }
+  std::vector<Index> found;
+  for (Index j = 0; j < scene.joints.size(); ++j) {
+    const scene::Joint& joint = scene.joints[j];
+    if (forest.joints[j] == scene::ForestRole::Tree && held[j] == 0 && joint.mimics.empty() &&
+        joint.kind != scene::JointKind::Fixed && tied[island_of(joint)] == 0) {
+      found.push_back(j);
+    }
+  }
+  return found;
+}
+
+/// It stays where it is at the start.
+void hold_at_start(const scene::PhysicsScene& scene, scene::Joint& joint) {
+  scene::Joint held;
+  held.path = joint.path;
+  held.kind = scene::JointKind::Fixed;
+  held.body0 = joint.body0;
+  held.body1 = joint.body1;
+  held.target0 = joint.target0;
+  held.target1 = joint.target1;
+  held.frame0 = joint.frame0 * scene::relative_frames(scene, joint);
+  held.frame1 = joint.frame1;
+  held.collision_enabled = joint.collision_enabled;
+  held.exclude_from_articulation = joint.exclude_from_articulation;
+  held.articulation = joint.articulation;
+  joint = std::move(held);
+}
+
+scene::PhysicsScene scene_without(const scene::PhysicsScene& scene,
+                                  const std::vector<DriveRow>& rows, unsigned causes) {
   scene::PhysicsScene left =
       has_cause(causes, StepCause::SelfCollision) ? without_self_collision(scene) : scene;
   if (has_cause(causes, StepCause::VelocityLimit)) {
@@ -57,6 +109,11 @@ scene::PhysicsScene scene_without(const scene::PhysicsScene& scene, unsigned cau
   }
   if (has_cause(causes, StepCause::Gravity)) {
     left = without_gravity(left);
+  }
+  if (has_cause(causes, StepCause::FreeJoints)) {
+    for (const Index j : free_joints(scene, rows)) {
+      hold_at_start(scene, left.joints[j]);
+    }
   }
   for (scene::Joint& joint : left.joints) {
     joint.friction = has_cause(causes, StepCause::Friction) ? 0 : joint.friction;
@@ -97,6 +154,7 @@ unsigned causes_in(const scene::PhysicsScene& scene, const std::vector<DriveRow>
   const auto drives = std::count_if(rows.begin(), rows.end(),
                                     [](const DriveRow& row) { return row.position_drive(); });
   add(drives > 1, StepCause::OtherDrives);
+  add(!free_joints(scene, rows).empty(), StepCause::FreeJoints);
   for (const scene::Scene& one : scene.scenes) {
     add(length(one.gravity) > 0, StepCause::Gravity);
   }
@@ -122,8 +180,8 @@ class Causes {
     if (!found_) {
       return {};
     }
-    for (const unsigned causes :
-         {kRareCauses, bit_of(StepCause::OtherDrives), bit_of(StepCause::Gravity)}) {
+    for (const unsigned causes : {kRareCauses, bit_of(StepCause::FreeJoints),
+                                  bit_of(StepCause::OtherDrives), bit_of(StepCause::Gravity)}) {
       TENON_CHECK(put_back(causes));
     }
     if (run_.interrupted()) {
@@ -185,7 +243,8 @@ class Causes {
     }
     ReducedScene& kept = run_.reduced[causes];
     if (!kept.rig) {
-      kept.scene = std::make_unique<scene::PhysicsScene>(scene_without(run_.in.scene, causes));
+      kept.scene =
+          std::make_unique<scene::PhysicsScene>(scene_without(run_.in.scene, run_.in.rows, causes));
       double step = run_.in.options.time_step;
       if (has_cause(causes, StepCause::TimeStep)) {
         TENON_TRY(const Rig* coarse, rig_without(causes & ~bit_of(StepCause::TimeStep)));
@@ -230,8 +289,7 @@ std::string cause_text(const FormMatch& form) {
     return "not by its form after the steps of other joints, and by it in a fresh simulation";
   }
   if (form.causes.empty()) {
-    return "not by its form, whatever is taken away: an undriven joint, a mimic or a loop moves "
-           "along";
+    return "not by its form, whatever is taken away: a mimic or a loop moves along";
   }
   std::string text;
   for (std::size_t i = 0; i < form.causes.size(); ++i) {

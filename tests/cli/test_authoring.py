@@ -520,6 +520,18 @@ def Xform "r" (
                             ("edit.bad-argument", "a=cube"), ("name.bad-pattern", "((=mass")):
             self.refused(rule, "add", scene, words, "--match")
 
+    def test_drives_for_all_joints_that_can_have_one(self):
+        scene, some = self.laid_out(), "(turn|weld|slide)=drive"
+        self.do("add", scene, "/World/turn=revolute", "--body1", "/World/a")
+        self.do("add", scene, "/World/weld=fixed", "--body0", "/World/a", "--body1", "/World/b")
+        self.do("add", scene, "/World/turn=drive", "--stiffness", "3")
+        self.refused("edit.no-prim", "add", scene, some, "--match", "--stiffness", "5")
+        self.do("add", scene, "/World/slide=prismatic", "--body1", "/World/b")
+        self.do("add", scene, some, "--match", "--stiffness", "5")
+        joints = json.loads(self.do("physics", scene, "--json").stdout)["joints"]
+        self.assertEqual({joint["path"] for joint in joints if joint["drives"]},
+                         {"/World/turn", "/World/slide"})
+
     def test_inside_an_instance_nothing_goes(self):
         self.scene.write_text('#usda 1.0\ndef "W"\n{\n    def "i" (\n        instanceable = true\n'
                               '        references = @./part.usda@\n    )\n    {\n    }\n}\n',

@@ -305,6 +305,35 @@ class Filters(Case):
         self.assertEqual(self.run_tenon("undo", asset).returncode, 0)
         self.assertEqual((self.folder / asset).read_text(), text)
 
+    def test_self_collision_that_is_off(self):
+        apis = '"PhysicsArticulationRootAPI", "NewtonArticulationRootAPI", "PhysxArticulationAPI"'
+        flags = ("newton:selfCollisionEnabled", "physxArticulation:enabledSelfCollisions")
+        lines = "".join(f"    bool {flag} = 0\n" for flag in flags)
+        asset = self.write("rig.usda", rig().replace(
+            'def Xform "rig"\n{\n',
+            f'def Xform "rig" (\n    prepend apiSchemas = [{apis}]\n)\n{{\n{lines}', 1))
+        self.assertIn("self-collision of rig is off", self.run_tenon("pairs", asset).stdout)
+        self.assertTrue(self.json("pairs", asset, "--filter", "always")["written"])
+        made = self.json("pairs", asset, "--self-collision", "on")
+        self.assertEqual({edit["object"] for edit in made["edits"]},
+                         {f"/rig.{flag}" for flag in flags})
+        text = (self.folder / asset).read_text()
+        for flag in flags:
+            self.assertIn(f"bool {flag} = 1", text)
+        self.assertNotIn("self-collision", self.run_tenon("pairs", asset).stdout)
+        pair = self.pairs(asset)[frozenset(("base", "shell"))]
+        self.assertEqual([why["rule"] for why in pair["filters"]], ["S-81"])
+        again = self.run_tenon("pairs", asset, "--self-collision", "on")
+        self.assertEqual(again.returncode, 0)
+        self.assertIn("self-collision is on already", again.stderr)
+        self.assertEqual((self.folder / asset).read_text(), text)
+        self.json("pairs", asset, "--self-collision", "off")
+        text = (self.folder / asset).read_text()
+        for flag in flags:
+            self.assertIn(f"bool {flag} = 0", text)
+        bare = self.write("bare.usda", rig())
+        self.assertIn("no articulation", self.fails(bare, "--self-collision", "on"))
+
     def test_default_and_adjacent(self):
         text = rig().replace('def PhysicsRevoluteJoint "turn"\n    {', 'def PhysicsRevoluteJoint '
                              '"turn"\n    {\n        bool physics:collisionEnabled = 1')

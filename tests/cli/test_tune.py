@@ -62,6 +62,19 @@ def blocked_by_itself():
         gravity=scenes.WEIGHTLESS, articulated=True)
 
 
+def elbow():
+    """0.1 kg m2 and 2 kg 0.2 m below an axis; 0.4 m below it 0.5 kg on an arm of 0.1 m, which
+    starts 60 degrees below its lower limit."""
+    return scene(
+        body("A", (0, 0, 3), collides=False, mass=2.0, inertia=(0.1,) * 3),
+        joint("revolute", "J", None, "/World/A", (0, 0, 3.2), (0, 0, 0.2), axis="Y",
+              limits=(-60, 60), parts=[drive("angular", "force", 0.2, 0.01)]),
+        body("B", (0, 0, 2.7), collides=False, mass=0.5, inertia=(0.01,) * 3),
+        joint("revolute", "K", "/World/A", "/World/B", (0, 0, -0.2), (0, 0, 0.1), axis="Y",
+              limits=(60, 120), parts=[drive("angular", "force", 0.1, 0.005)]),
+        articulated=True)
+
+
 class Tune(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
@@ -102,6 +115,22 @@ class Tune(unittest.TestCase):
         self.assertAlmostEqual(tuned["damping"], 2 * 0.5 * 5, 5)
         for name in ("stiffness", "damping"):
             self.assertAlmostEqual(tuned["authored"][name] * 180 / math.pi, tuned[name], 5)
+
+    def test_a_start_outside_of_limits_is_put_inside(self):
+        path = self.write("a.usda", elbow())
+        inertia = 0.1 + 2 * 0.2 ** 2 + 0.01 + 0.5 * (0.4 ** 2 + 0.1 ** 2 + 0.4 * 0.1)
+        rows = self.json(path)["drives"]
+        self.assertAlmostEqual({row["joint"]: row["inertia"] for row in rows}["/World/J"], inertia,
+                               6)
+        done = self.json(path, "--joints", "K", "--test", "step", "--frequency", "5",
+                         "--damping-ratio", "1", "--dt", "0.001", "--engine", "all",
+                         code=1)  # gravity keeps it from the target
+        for engine in done["engines"]:
+            at = engine["results"][0]["step"]
+            self.assertNotIn("joint-limits", at["causes"], (engine["engine"], at))
+        told = json.loads(tenon("drives", path, "--json").stdout)["drives"]
+        self.assertAlmostEqual({row["joint"]: row["weightAt"] for row in told}["/World/K"],
+                               math.pi / 3, 6)
 
     def test_units_of_the_stage_cancel(self):
         """Centimetres and grams: the same wheel, the same response."""

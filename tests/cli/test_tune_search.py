@@ -34,16 +34,18 @@ ENGINES = [row["name"] for row in DOCTOR["engines"] if row["available"]]
 HAS_NLOPT = next(part for part in DOCTOR["libraries"] if part["name"] == "nlopt")["available"]
 
 
-def arm(max_force=None, mass=2.0, gravity=()):
-    """2 kg, 0.2 m from the axis about which 0.1 + 0.08 kg m2 turn; and a second link."""
+def arm(max_force=None, mass=2.0, gravity=(), hangs=False):
+    """2 kg, 0.2 m from the axis about which 0.1 + 0.08 kg m2 turn; and a second link, which
+    nothing drives where it hangs."""
     bound = {} if max_force is None else {"max_force": max_force}
+    second = [] if hangs else [drive("angular", "force", 0.1, 0.005, **bound)]
     return scene(
         body("A", (0, 0, 3), collides=False, mass=mass, inertia=(0.1,) * 3),
         joint("revolute", "J", None, "/World/A", (0, 0, 3.2), (0, 0, 0.2), axis="Y",
               limits=(-60, 60), parts=[drive("angular", "force", 0.2, 0.01, **bound)]),
         body("B", (0, 0, 2.7), collides=False, mass=0.5, inertia=(0.01,) * 3),
         joint("revolute", "K", "/World/A", "/World/B", (0, 0, -0.2), (0, 0, 0.1), axis="Y",
-              limits=(-60, 60), parts=[drive("angular", "force", 0.1, 0.005, **bound)]),
+              limits=(-60, 60), parts=second),
         gravity=gravity or scenes.WEIGHTLESS, articulated=True)
 
 
@@ -196,6 +198,7 @@ class Causes(unittest.TestCase):
                 ("gravity", arm(gravity=["float physics:gravityMagnitude = 9.81"]),
                  ("--dt", "0.001")),
                 ("other-drives", arm(), ("--dt", "0.001")),
+                ("free-joints", arm(hangs=True), ("--dt", "0.001")),
                 ("velocity-limit", scenes.revolute(
                     articulated=True, apis=["PhysxJointAPI"],
                     lines=["float physxJoint:maxJointVelocity = 30"]), ("--dt", "0.001"))):

@@ -141,6 +141,7 @@ OF_VERBS = {
              "--rotation": "1,0,0,0", "--hold": "Hinge", "--robot": "/World"},
     "dump": {"--output": "out.json"},
     "new": {"--up": "Y"},
+    "pairs": {"--self-collision": "off"},
     "remove": {"--engine": "physx", "--variant": "Physics=heavy"},
     "set": {"--engine": "physx", "--mimic": HINGE + "=/World/Rail,2"},
     "sim": {"--output": "run.csv"},

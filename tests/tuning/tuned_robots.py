@@ -3,19 +3,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `tenon tune` promises, on published robots: a small step of each joint alone is by the form.
 
-usage: tuned_robots.py ROOT TENON PAGE [--write] [--few] [--robots COUNT]
+usage: tuned_robots.py ROOT TENON PAGE [--write] [--few] [--robots COUNT] [--keep FOLDER]
+                       [--seconds SECONDS]
 
 The robots are the first COUNT (50) URDFs of tests/convert/ten_robots.py --all that convert and have
 a drive, with a fixed base and drives for all joints. Each is given FREQUENCY and RATIO, and JOINTS
 of its joints at most are stepped on every engine of the build, one after the other. A joint whose
 overshoot and rise are not within 5 % of the form (an overshoot not within half a per cent of the
 step, either) has to have a cause that the program proves by a run without it, whose overshoot and
-rise are judged here again. Exit 0: so it is for all, and PAGE has the counts; 1: not; 77: the
+rise are judged here again. --keep puts the result of each robot into FOLDER and takes those that
+are there, and after --seconds no more robots are begun: so 50 robots are done in several calls, of
+the same program. Exit 0: so it is for all, and PAGE has the counts; 1: not; 77: the
 robots cannot be fetched.
 """
 
 import argparse
 import collections
+import hashlib
 import json
 import multiprocessing.pool
 import os
@@ -23,6 +27,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "tests/convert"), str(ROOT / "tests/engines_beside")]
@@ -100,24 +105,45 @@ def verdict(result, damped):
 
 
 class Robot:
-    def __init__(self, tenon, name, source, folder, engines):
-        self.tenon, self.name, self.source = tenon, name, source
+    def __init__(self, options, name, source, folder, engines):
+        self.tenon, self.name, self.source = options.tenon, name, source
         self.engines = [engine for engine, _ in engines]
-        self.asset = folder / f"{abs(hash((name, str(source))))}.usdc"
+        key = hashlib.sha256(f"{name} {source}".encode()).hexdigest()[:16]
+        self.asset = folder / f"{key}.usdc"
+        self.kept = options.keep / f"{key}.json" if options.keep else None
+        self.end = options.end
         self.counts = None  # {engine: Counter of verdicts}; it has no drives
-        self.faults, self.joints = [], 0
+        self.faults, self.joints, self.left = [], 0, False
 
     def run(self):
+        """The result that is kept, or a new one while there is time."""
+        if self.kept and self.kept.exists():
+            told = json.loads(self.kept.read_text(encoding="utf-8"))
+            counts, self.faults, self.joints = told["counts"], told["faults"], told["joints"]
+            self.counts = counts and {engine: collections.Counter(found)
+                                      for engine, found in counts.items()}
+            return self
+        if time.monotonic() > self.end:
+            self.left = True
+            return self
+        self.tune()
+        if self.kept:
+            self.kept.write_text(json.dumps({"name": self.name, "counts": self.counts,
+                                             "faults": self.faults, "joints": self.joints}),
+                                 encoding="utf-8")
+        return self
+
+    def tune(self):
         code, _ = run([self.tenon, "convert", self.source, self.asset, "--fix-base", "--gains",
                        GAINS, "--json"])
         if code not in (0, 1):
-            return self
+            return
         wish = [self.tenon, "tune", self.asset, "--frequency", FREQUENCY, "--damping-ratio", RATIO,
                 "--dt", STEP, "--json"]
         _, answer = run(wish)
         joints = [drive["joint"] for drive in answer.get("drives", []) if drive["to"]]
         if not joints:
-            return self
+            return
         count = min(JOINTS, len(joints))
         chosen = [joints[i * len(joints) // count] for i in range(count)]
         code, answer = run([*wish, "--test", "step", "--amplitude", AMPLITUDE, "--period", PERIOD,
@@ -126,16 +152,15 @@ class Robot:
         if "engines" not in answer:
             said = (answer.get("diagnostics") or [{"message": f"exit code {code}"}])[-1]
             self.faults.append(f"{self.name}: {said['message'][:200]}")
-            return self
+            return
         if not any(engine["results"] for engine in answer["engines"]):
-            return self
+            return
         self.counts = {}
         damped = {drive["joint"] for drive in answer["drives"]
                   if drive["to"]["dampingRatio"] > 1.001 * RATIO
                   and any("own damping of" in note for note in drive["notes"])}
         for engine in answer["engines"]:
             self.judge(engine, damped)
-        return self
 
     def judge(self, engine, damped):
         """Counts the verdicts of one engine, and keeps what is not explained."""
@@ -178,7 +203,8 @@ def robots_of(options, packages, engines, work):
     rows = ten_robots.rows_of(argparse.Namespace(all=not options.few, only=None), packages)
     rows = [row for row in rows if str(row[1]).endswith(".urdf")]
     count = 3 if options.few else options.robots
-    left = [Robot(options.tenon, name, path, work, engines)
+    options.end = time.monotonic() + options.seconds
+    left = [Robot(options, name, path, work, engines)
             for name, path in names_of(rows, packages)]
     tried, found = [], []
     with multiprocessing.pool.ThreadPool(options.jobs) as pool:
@@ -186,6 +212,8 @@ def robots_of(options, packages, engines, work):
             some, left = left[:count - len(found)], left[count - len(found):]
             tried += pool.map(Robot.run, some, 1)
             found = [robot for robot in tried if robot.counts]
+            if any(robot.left for robot in tried):
+                break
     return found, tried
 
 
@@ -197,8 +225,12 @@ def main():
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--few", action="store_true")
     parser.add_argument("--robots", type=int, default=50)
+    parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("--seconds", type=float, default=float("inf"))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args(ARGUMENTS)
+    if options.keep:
+        options.keep.mkdir(parents=True, exist_ok=True)
     packages, why = ten_robots.make_packages(options.root)
     if packages is None:
         print(f"skipped: the robots cannot be fetched: {why}")
@@ -206,6 +238,9 @@ def main():
     engines = engines_of(options.tenon)
     with tempfile.TemporaryDirectory() as work:
         robots, tried = robots_of(options, packages, engines, pathlib.Path(work))
+    if any(robot.left for robot in tried):
+        print(f"{len(robots)} robots so far; call it again, with the same --keep")
+        return 1
     faults = [fault for robot in tried for fault in robot.faults]
     page = page_of(robots, engines)
     print(page[page.index("| joints"):])

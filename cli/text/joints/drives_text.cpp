@@ -83,7 +83,8 @@ std::vector<std::string> drive_row(const Json& drive) {
 
 std::string drives_text(const Json& drives) {
   if (drives["drives"].empty()) {
-    const std::string advice = "tenon set ASSET --drive JOINT=stiffness:10,damping:1 adds one";
+    const std::string advice =
+        "to give each one: tenon add ASSET '.*=drive' --match --stiffness 10 --damping 1";
     return "no joint has a drive; " + advice + "\n";
   }
   std::vector<std::vector<std::string>> rows;

@@ -160,6 +160,23 @@ std::string postures_text(const Json& pairs) {
          (skipped == 0 ? "" : ", " + std::to_string(skipped) + " more skipped: loops do not close");
 }
 
+/// Articulations whose self-collision is off, with commas between; "" where there is none.
+std::string without_self_collision(const Json& pairs) {
+  std::set<std::string> roots;
+  for (const Json& pair : pairs["pairs"]) {
+    for (const Json& filter : pair["filters"]) {
+      if (filter["rule"] == "S-115" && filter["prim"].is_string()) {
+        roots.insert(name_of(filter["prim"].get<std::string>()));
+      }
+    }
+  }
+  std::string names;
+  for (const std::string& name : roots) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
 /// What filters leave of the pairs that should not push each other.
 std::string advice_text(const Json& pairs, const std::string& asset) {
   std::size_t always = 0;
@@ -185,6 +202,11 @@ std::string advice_text(const Json& pairs, const std::string& asset) {
     text += counted(over, "filtered pair") +
             " let bodies through each other that touch in few postures or none; --unfilter A,B "
             "takes one away\n";
+  }
+  if (const std::string roots = without_self_collision(pairs); !roots.empty()) {
+    text += "self-collision of " + roots +
+            " is off, so that links go through each other; to turn it on: tenon pairs " +
+            shell_word(asset) + " --self-collision on --filter always,default\n";
   }
   return text;
 }

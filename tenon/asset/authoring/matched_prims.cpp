@@ -3,7 +3,10 @@
 #include "tenon/asset/authoring/matched_prims.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "tenon/asset/authoring/requested_kinds.h"
 #include "tenon/base/text/name_pattern.h"
@@ -31,15 +34,25 @@ std::vector<stage::Prim> prims_of(const stage::Stage& stage) {
 }
 
 /// A prim that a kind can be put on, and that has it not.
-bool takes_kind(const stage::Prim& prim, const Kind& kind) {
+bool takes_kind(const stage::Prim& prim, const Kind& kind,
+                const std::map<std::string, std::string>& options) {
   if (!kind.on.empty() && !prim.is_a(Token(kind.on))) {
     return false;
   }
   if (kind.name == "collider" && !prim.is_a("Gprim")) {
     return false;
   }
-  return kind.apis.empty() || kind.apis.front().find('*') != std::string_view::npos ||
-         !prim.has_api(Token(kind.apis.front()));
+  if (kind.apis.empty()) {
+    return true;
+  }
+  const bool instanced = kind.apis.front().find('*') != std::string_view::npos;
+  if (instanced && prim.is_a("PhysicsFixedJoint")) {
+    return false;  // no degree of freedom
+  }
+  const std::string instance = instanced ? instance_of(prim.type_name(), kind, options) : "";
+  // Which degree of freedom of several is meant is asked where the kind is put on.
+  return (instanced && instance.empty()) ||
+         !prim.has_api(Token(with_instance(kind.apis.front(), instance)));
 }
 
 Error makes_prims(const Kind& kind) {
@@ -49,7 +62,8 @@ Error makes_prims(const Kind& kind) {
       .with_fix("leave --match out, and name the path of the prim to make");
 }
 
-Result<std::vector<std::string>> matched(const Stages& stages, const std::string& text) {
+Result<std::vector<std::string>> matched(const Stages& stages, const std::string& text,
+                                         const std::map<std::string, std::string>& options) {
   const std::size_t equals = text.rfind('=');
   const std::string names = equals == std::string::npos ? "" : text.substr(equals);
   TENON_TRY(const RequestedKinds asked, read_requested("/prim" + names, true));
@@ -68,7 +82,7 @@ Result<std::vector<std::string>> matched(const Stages& stages, const std::string
       }
       any = true;
       if (std::all_of(asked.kinds.begin(), asked.kinds.end(),
-                      [&](const Kind* kind) { return takes_kind(prim, *kind); })) {
+                      [&](const Kind* kind) { return takes_kind(prim, *kind, options); })) {
         found.insert(prim.path());
       }
     }
@@ -96,7 +110,7 @@ Result<AuthoringRequest> matched_request(const Stages& stages, const AuthoringRe
   made.match = false;
   made.what.clear();
   for (const std::string& text : request.what) {
-    TENON_TRY(const std::vector<std::string> requests, matched(stages, text));
+    TENON_TRY(const std::vector<std::string> requests, matched(stages, text, request.options));
     made.what.insert(made.what.end(), requests.begin(), requests.end());
   }
   return made;

@@ -183,7 +183,7 @@ Result<void> look_at_postures(const dynamics::Multibody& multibody, const Drives
     return {};
   }
   const dynamics::DrawnPostures postures(multibody);
-  look_at(multibody, postures.start(), demands);
+  look_at(multibody, dynamics::start_inside_limits(multibody), demands);
   for (std::size_t i = 0; i < options.samples; ++i) {
     if (options.go_on && !options.go_on(i, options.samples)) {
       return Error(ErrorCode::Invalid, "the look at postures was ended before its end")

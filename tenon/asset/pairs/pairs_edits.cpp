@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A request becomes pairs of paths, by words, by two names, or by a file. Pairs whose
-// colliders filters keep apart are taken out; the others become filtered pairs of the first prim.
-// A removal is asked of all variants of "Physics", since any of them may have the filter. Where it
-// is the last one of its prim, the schema goes, too. Links of SRDF are found by the names of the
-// bodies' prims, which therefore must be of one body each.
+// A request becomes pairs of paths, by words, by two names, or by a file. Pairs whose colliders
+// filters keep apart, self-collision that is off aside, are taken out; the others become filtered
+// pairs of the first prim. A removal is asked of all variants of "Physics", since any of them may
+// have the filter. Where it is the last one of its prim, the schema goes, too. Links of SRDF are
+// found by the names of the bodies' prims, which therefore must be of one body each.
 #include "tenon/asset/pairs/pairs_edits.h"
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include "tenon/answers/json.h"
 #include "tenon/asset/authoring/remove_edits.h"
 #include "tenon/asset/pairs/link_names.h"
+#include "tenon/asset/pairs/self_collision_edits.h"
 #include "tenon/asset/typed_edits.h"
 #include "tenon/base/limits/pair_limits.h"
 #include "tenon/base/text/nearest_name.h"
@@ -73,7 +74,8 @@ Error unknown_word(const std::string& word) {
 /// The colliders that a path means: those of a body, or one.
 class NamedSides {
  public:
-  explicit NamedSides(const scene::PhysicsScene& scene) : scene_(scene) {
+  NamedSides(const scene::PhysicsScene& scene, const physics::Provenance& provenance)
+      : scene_(scene), provenance_(provenance) {
     for (Index i = 0; i < scene.colliders.size(); ++i) {
       const scene::Collider& collider = scene.colliders[i];
       sides_[collider.path].push_back(i);
@@ -89,13 +91,13 @@ class NamedSides {
 
   bool has(Path path) const { return sides_.contains(path); }
 
-  /// All colliders of the one are kept from all of the other; also where one has none.
+  /// All colliders of the one are kept from all of the other, whether self-collision is on or off;
+  /// also where one has none.
   bool are_apart(Path a, Path b) const {
     const std::vector<Index>& own = sides_.at(a);
     const std::vector<Index>& other = sides_.at(b);
     return std::all_of(own.begin(), own.end(), [&](Index i) {
-      return std::all_of(other.begin(), other.end(),
-                         [&](Index j) { return !scene_.may_meet(i, j); });
+      return std::all_of(other.begin(), other.end(), [&](Index j) { return never_meet(i, j); });
     });
   }
 
@@ -120,6 +122,17 @@ class NamedSides {
   }
 
  private:
+  bool never_meet(Index i, Index j) const {
+    constexpr std::string_view kSelfCollision = "S-115";
+    if (scene_.may_meet(i, j)) {
+      return false;
+    }
+    const auto reasons = physics::why_apart(scene_, provenance_, i, j);
+    return reasons.empty() || std::any_of(reasons.begin(), reasons.end(), [&](const auto& reason) {
+             return reason.rule != kSelfCollision;
+           });
+  }
+
   std::string advice(const std::string& text) const {
     constexpr std::size_t kMostNames = 10'000;
     constexpr std::size_t kLongest = 500;
@@ -138,6 +151,7 @@ class NamedSides {
   }
 
   const scene::PhysicsScene& scene_;
+  const physics::Provenance& provenance_;
   std::map<Path, std::vector<Index>> sides_;
   std::map<std::string, std::vector<Path>> names_;  // of bodies
 };
@@ -146,7 +160,10 @@ class NamedSides {
 class PairChoice {
  public:
   PairChoice(const PairsOfAsset& pairs, const EditOptions& options, Diagnostics& diagnostics)
-      : pairs_(pairs), options_(options), diagnostics_(diagnostics), sides_(*pairs.scene) {}
+      : pairs_(pairs),
+        options_(options),
+        diagnostics_(diagnostics),
+        sides_(*pairs.scene, pairs.provenance) {}
 
   const NamedSides& sides() const { return sides_; }
 
@@ -426,8 +443,10 @@ Result<void> add_removals(const std::string& path, const PairsOfAsset& pairs,
   return {};
 }
 
-/// Each prim gets the schema and all its pairs, which are one wish.
-void add_lists(const std::map<Path, std::set<Path>>& added, std::vector<AssetEdit>& edits) {
+/// Each prim gets the schema and all its pairs, which are one wish. `rests`: what keeps links apart
+/// as well may leave nothing to change.
+void add_lists(const std::map<Path, std::set<Path>>& added, bool rests,
+               std::vector<AssetEdit>& edits) {
   for (const auto& [prim, others] : added) {
     const std::size_t wish = edits.size();
     AssetEdit schema;
@@ -435,12 +454,14 @@ void add_lists(const std::map<Path, std::set<Path>>& added, std::vector<AssetEdi
     schema.object = prim;
     schema.api = Token("PhysicsFilteredPairsAPI");
     schema.wish = wish;
+    schema.may_rest = rests;
     edits.push_back(std::move(schema));
     AssetEdit list;
     list.kind = AssetEdit::Kind::AddTargets;
     list.object = prim.property(filtered_pairs());
     list.value = joined(others);
     list.wish = wish;
+    list.may_rest = rests;
     edits.push_back(std::move(list));
   }
 }
@@ -474,6 +495,10 @@ Result<PairsEdits> pairs_edits(const std::string& path, const PairsOfAsset& pair
     removed.push_back(pair);
   }
   PairsEdits result;
+  if (request.self_collision) {
+    TENON_TRY(result.edits,
+              self_collision_edits(path, *pairs.scene, *request.self_collision, options));
+  }
   TENON_CHECK(add_removals(path, pairs, removed, options, result.edits));
   result.chosen = chosen.size();
   std::map<Path, std::set<Path>> added;
@@ -492,7 +517,10 @@ Result<PairsEdits> pairs_edits(const std::string& path, const PairsOfAsset& pair
     }
     added[first].insert(second);
   }
-  add_lists(added, result.edits);
+  const std::vector<scene::Articulation>& articulations = pairs.scene->articulations;
+  const bool any_off = std::any_of(articulations.begin(), articulations.end(),
+                                   [](const auto& one) { return !one.self_collision; });
+  add_lists(added, any_off, result.edits);
   return result;
 }
 

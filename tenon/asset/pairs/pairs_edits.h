@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct PairsRequest {
   /// paths, or a file: .srdf, or .json as pairs_json makes it, whose pairs are all taken.
   std::vector<std::string> filter;
   std::vector<std::string> unfilter;  ///< "A,B"
+  /// Whether links of articulations touch each other.
+  std::optional<bool> self_collision{};
 
-  bool empty() const { return filter.empty() && unfilter.empty(); }
+  bool empty() const { return filter.empty() && unfilter.empty() && !self_collision; }
   /// A word asks which pairs touch.
   bool needs_search() const;
 };
@@ -32,13 +35,14 @@ Result<void> check_words(const PairsRequest& request);
 struct PairsEdits {
   std::vector<AssetEdit> edits;
   std::size_t chosen = 0;    ///< pairs to filter
-  std::size_t filtered = 0;  ///< of them, kept apart already
+  std::size_t filtered = 0;  ///< of them, kept apart already, by more than self-collision off
 };
 
-/// The edits of one step: removals first. Pairs that are kept apart already are not written again.
-/// Errors: those of check_words, of reading files and of filter_edits; NotFound (pairs.no-body)
-/// for paths, and names of SRDF, that are no body or collider, (pairs.not-filtered) for a pair to
-/// remove that neither of the two prims lists; Invalid (pairs.same-name, pairs.file).
+/// The edits of one step: self-collision and removals first. Pairs that are kept apart already are
+/// not written again, except those that only self-collision that is off keeps apart. Errors: those
+/// of self_collision_edits, of check_words, of reading files and of filter_edits; NotFound
+/// (pairs.no-body) for paths, and names of SRDF, that are no body or collider, (pairs.not-filtered)
+/// for a pair to remove that neither of the two prims lists; Invalid (pairs.same-name, pairs.file).
 Result<PairsEdits> pairs_edits(const std::string& path, const PairsOfAsset& pairs,
                                const PairsRequest& request, const EditOptions& options,
                                Diagnostics& diagnostics);

@@ -15,6 +15,7 @@
 #include "tenon/asset/tuning/search_scenes.h"
 #include "tenon/asset/tuning/tuned_units.h"
 #include "tenon/base/text/rounded_text.h"
+#include "tenon/dynamics/posture_text.h"
 #include "tenon/engines/time_step.h"
 #include "tenon/make_simulation.h"
 #include "tenon/math/angle.h"
@@ -38,6 +39,7 @@ Result<ReadDrives> read_drives(const std::string& path, const OpenOptions& open,
   auto scene = std::make_unique<scene::PhysicsScene>(
       physics::read_physics(stage, read_options(options.readings), diagnostics));
   TENON_CHECK(dynamics::apply_masks(options.masks, *scene, diagnostics));
+  dynamics::start_inside_limits(*scene);
   std::vector<DriveRow> rows = drive_rows_of(*scene);
   return ReadDrives{std::move(stage), std::move(scene), std::move(rows)};
 }
