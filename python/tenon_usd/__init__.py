@@ -59,6 +59,7 @@ from .functions import (
     undo,
     where,
 )
+from .tuning import colliders, tune
 
 if TYPE_CHECKING:
     from .dynamics import Dynamics
@@ -86,6 +87,7 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "colliders",
     "compare",
     "convert",
     "diff",
@@ -102,6 +104,7 @@ __all__ = [
     "rule",
     "rules",
     "structure",
+    "tune",
     "undo",
     "where",
 ]

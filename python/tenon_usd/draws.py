@@ -106,9 +106,18 @@ def _check_range(low: float, high: float) -> None:
 Vary = Iterable[str] | Mapping[str, Distribution]
 
 
+def check(what: str, one: Distribution) -> None:
+    """Raises TypeError for what is no distribution."""
+    if not hasattr(one, "sample"):
+        raise TypeError(f"{what} is drawn from a distribution such as Uniform(0.8, 1.2), not from "
+                        f"{one!r}")
+
+
 def distributions(vary: Vary) -> dict[str, Distribution]:
     """By name, of texts "NAME=LOW..HIGH" too. Raises ValueError for other texts."""
     if isinstance(vary, Mapping):
+        for name, one in vary.items():
+            check(name, one)
         return dict(vary)
     if isinstance(vary, str):
         raise TypeError(f"vary is a list of str, not the str {vary!r}; write [{vary!r}]")

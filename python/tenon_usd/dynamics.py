@@ -14,7 +14,6 @@ floats. Arrays are of float64 and belong to the caller.
 from __future__ import annotations
 
 import dataclasses
-import operator
 from collections.abc import Mapping
 from typing import SupportsFloat, SupportsIndex
 
@@ -22,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tenon
+from ._arrays import place, spread
 
 Array = npt.NDArray[np.float64]
 Pose = str | Mapping[str, SupportsFloat]
@@ -156,7 +156,7 @@ class Dynamics:
         `velocities` [rad/s or m/s] are (n,), or what broadcasts to it. With an acceleration a, M a
         + bias = forces + gravity_forces. Raises InvalidError for numbers that are not finite.
         """
-        return self._posed.bias_forces(self._spread(velocities))
+        return self._posed.bias_forces(self._along("velocities", velocities))
 
     def jacobian(self, body: str | SupportsIndex, point: npt.ArrayLike | None = None) -> Array:
         """How coordinates move a point of a body [m or 1], shape (6, n).
@@ -167,7 +167,7 @@ class Dynamics:
         given. Raises NotFoundError for an unknown body, IndexError for an index out of range,
         InvalidError for a point that is not finite.
         """
-        place = None if point is None else _array(point, (3,))
+        place = None if point is None else spread("point", point, (3,))
         return self._posed.jacobian(self._body(body), place)
 
     def effective_inertia(self) -> tuple[Array, Array]:
@@ -187,28 +187,20 @@ class Dynamics:
         broadcasts to it; what is tied to a coordinate adds its part. Not finite where the
         coordinate cannot move. Raises InvalidError for numbers that are not finite.
         """
-        return self._posed.along_held(self._spread(forces))
+        return self._posed.along_held(self._along("forces", forces))
 
     # ---- the rest
 
     def __repr__(self) -> str:
         return f"<Dynamics of {self._posed.body_count} bodies, {self._posed.count} coordinates>"
 
-    def _spread(self, values: npt.ArrayLike) -> Array:
-        return _array(values, (self._posed.count,))
+    def _along(self, what: str, values: npt.ArrayLike) -> Array:
+        return spread(what, values, (self._posed.count,))
 
     def _body(self, body: str | SupportsIndex) -> int:
         if isinstance(body, str):
             return self._posed.body(body)
-        index, count = operator.index(body), self._posed.body_count
-        if not -count <= index < count:
-            raise IndexError(f"there is no body {index}; there are {count}")
-        return index % count
-
-
-def _array(values: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    return np.ascontiguousarray(np.broadcast_to(array, shape))
+        return place("body", body, self._posed.body_count)
 
 
 def _pose(pose: Pose | None) -> tuple[list[str], list[tuple[str, float]]]:

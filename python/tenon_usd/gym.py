@@ -18,7 +18,9 @@ Tasks that a file describes are in tenon_usd.tasks.
 
 from __future__ import annotations
 
+import inspect
 import math
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -30,17 +32,52 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import draws
+from ._arrays import counted, index, seconds, texts
+from ._lists import no_such
 from ._tenon import Stage
 from .actuators import Actuator, Actuators, fitting
 from .draws import Distribution, Vary
+from .errors import InvalidError
 from .observations import Entry, Observer, outputs_of
-from .options import PathLike
+from .options import OpenOptions, PathLike
 from .rendering import Picture, Renderer, Window
 from .world import World
 
 Array = npt.NDArray[Any]
 Mask = npt.NDArray[np.bool_]
 RENDER_MODES = ("human", "rgb_array")
+
+
+def _time(what: str, number: float) -> float:
+    time = seconds(what, number)
+    if time == 0:
+        raise InvalidError(f"{what} must be above 0 seconds")
+    return time
+
+
+def _check_options(options: Iterable[str]) -> None:
+    """Raises TypeError, with the one that was meant, for one that nothing takes."""
+    known = {*inspect.signature(AssetVectorEnv).parameters, *inspect.signature(World).parameters,
+             *OpenOptions.__annotations__} - {"options", "world_options"}
+    for name in options:
+        if name not in known:
+            raise TypeError(f"got an unexpected keyword argument; {no_such(name, sorted(known))}")
+
+
+def _steps_of(frame_time: float, time_step: float) -> int:
+    """Whole time steps of a frame; a warning where they are not what was asked for."""
+    frame_time = _time("frame_time", frame_time)
+    steps = max(1, round(frame_time / time_step))
+    if not math.isclose(steps * time_step, frame_time, rel_tol=1e-6):
+        warnings.warn(f"a frame of {frame_time:g} s is no whole number of time steps of "
+                      f"{time_step:g} s: it takes {steps * time_step:g} s; "
+                      f"time_step={frame_time:g} or a part of it makes it exact", stacklevel=3)
+    return steps
+
+
+def _check_actions(actions: Array, space: spaces.Space[Array]) -> None:
+    if np.shape(actions) != space.shape:
+        raise ValueError(f"actions have the shape {np.shape(actions)}; expected {space.shape}")
 
 
 class AssetVectorEnv(VectorEnv[Array, Array, Array]):
@@ -54,9 +91,10 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
     observation has what `observations` name (tenon_usd.observations); None: the positions of the
     joints [rad or m], their velocities [rad/s or m/s], then of each of `bodies` the position [m]
     and orientation (w, x, y, z).
-    `observation_spec` says what each number is. One step takes `frame_time` [s]; an episode ends
-    after `episode_time` [s]. `world_options` go to World. Subclasses say what is rewarded (reward)
-    and what ends an episode early (is_over).
+    `observation_spec` says what each number is. One step takes `frame_time` [s], in whole time
+    steps of the world (a warning where that is another time); an episode ends after `episode_time`
+    [s]. `world_options` go to World. Subclasses say what is rewarded (reward) and what ends an
+    episode early (is_over); one that observes more overrides observe() and observation_spec.
 
     `autoreset_mode` is one of Gymnasium's: NEXT_STEP resets environments that ended in the step
     after; SAME_STEP at once, with the last observation in infos["final_obs"] and what else was told
@@ -103,25 +141,29 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         if render_mode is not None and render_mode not in RENDER_MODES:
             raise ValueError(f"render_mode {render_mode!r}: there are None, "
                              + ", ".join(map(repr, RENDER_MODES)))
+        _check_options(world_options)
+        num_envs = counted("num_envs", num_envs)
         self._vary = draws.distributions(vary)
+        if noise is not None:
+            draws.check("noise", noise)
         self.noise = noise
-        named = None if observations is None else list(observations)
+        named = None if observations is None else texts("observations", observations)
         outputs = [*world_options.pop("outputs", ()), *outputs_of(named or ())]
         self.world: World = World(asset, envs=num_envs, seed=seed, vary=draws.texts(self._vary),
                                   outputs=list(dict.fromkeys(outputs)), **world_options)
         self.num_envs = num_envs
         self._seed_all(seed)
-        self.frame_steps: int = max(1, round(frame_time / self.world.time_step))
-        self.episode_time = episode_time
+        self.frame_steps: int = _steps_of(frame_time, self.world.time_step)
+        self.episode_time: float = _time("episode_time", episode_time)
         self._mode = AutoresetMode(autoreset_mode)
         self.render_mode = render_mode
         self.metadata = {**type(self).metadata, "autoreset_mode": self._mode,
                          "render_fps": round(1 / (self.frame_steps * self.world.time_step))}
         names = self.world.body_names
-        self.bodies: list[int] = [names.index(body) for body in bodies]
+        self.bodies: list[int] = [index("bodies", names, body) for body in texts("bodies", bodies)]
         chosen = list(actuators)
         self.actuators: Actuators | None = Actuators(self.world, chosen) if chosen else None
-        self._low, self._high = self._bounds(None if drives is None else list(drives))
+        self._low, self._high = self._bounds(None if drives is None else texts("drives", drives))
         self._targets = np.tile(self.world._first_targets, (num_envs, 1))
         self._observer = Observer(self.world, self._default_names() if named is None else named)
         self._renderer: Renderer | None = None
@@ -158,8 +200,13 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         """What each number of an action commands: `low` is what -1 means, `high` what 1 does."""
         return self._action_entries
 
-    def _seed_all(self, seed: int | list[int | None]) -> None:
-        seeds = [seed + i for i in range(self.num_envs)] if isinstance(seed, int) else list(seed)
+    def _seed_all(self, seed: Any) -> None:
+        seeds: list[int | None]
+        if isinstance(seed, Iterable) and not isinstance(seed, str):
+            seeds = [None if one is None else counted("seed", one) for one in seed]
+        else:
+            first = counted("seed", seed)
+            seeds = [first + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds for {self.num_envs} environments")
         if not hasattr(self, "_randoms"):
@@ -238,7 +285,11 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         return self._observer.read()
 
     def _observed(self) -> Array:
-        observations = self.observe()
+        observations = np.asarray(self.observe())
+        if observations.shape != self.observation_space.shape:
+            raise ValueError(f"observe() gave the shape {observations.shape}; observation_spec has "
+                             f"{len(self.observation_spec)} numbers for each of {self.num_envs} "
+                             "environments: override it, too")
         if self.noise is not None:
             for row, random in zip(observations, self._randoms):
                 row += self.noise.sample(random, row.shape)
@@ -254,10 +305,13 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         """
         if seed is not None:
             self._seed_all(seed)
-        if isinstance(seed, int):
+        if seed is not None and not isinstance(seed, Iterable):
             self._np_random = np.random.default_rng(seed)
-        mask = (options or {}).get("reset_mask", np.ones(self.num_envs, dtype=bool))
-        self._restart(np.asarray(mask, dtype=bool))
+        mask = np.asarray((options or {}).get("reset_mask", np.ones(self.num_envs, dtype=bool)))
+        if mask.dtype != bool or mask.shape != (self.num_envs,):
+            raise ValueError(f"reset_mask is a mask of bool of the shape ({self.num_envs},), not "
+                             f"of {mask.dtype} and {mask.shape}")
+        self._restart(mask)
         self._show()
         return self._observed(), {}
 
@@ -265,6 +319,7 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
         self, actions: Array
     ) -> tuple[Array, Array, Array, Array, dict[str, Any]]:
         """Actions of shape (envs, actions); observations, rewards, terminated, truncated, infos."""
+        _check_actions(actions, self.action_space)
         fresh = self._ended.copy()
         if fresh.any():
             if self._mode == AutoresetMode.DISABLED:
@@ -276,8 +331,8 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
             # Those that were just reset show their first observation: they are put back after it.
             self._back(fresh)
         unstable = np.array([failure is not None for failure in self.world.failures()])
-        rewards = np.where(fresh | unstable, 0.0, self.reward())
-        terminated = (self.is_over() | unstable) & ~fresh
+        rewards = np.where(fresh | unstable, 0.0, self._of_each("reward()", self.reward()))
+        terminated = (self._of_each("is_over()", self.is_over()) | unstable) & ~fresh
         truncated = (self.world.time >= self.episode_time - 1e-9) & ~terminated & ~fresh
         self._ended = terminated | truncated
         infos = {"unstable": unstable, **self.told()}
@@ -286,6 +341,13 @@ class AssetVectorEnv(VectorEnv[Array, Array, Array]):
             observations = self._begun_again(observations, infos)
         self._show()
         return observations, rewards, terminated, truncated, infos
+
+    def _of_each(self, what: str, values: Array) -> Array:
+        """What a subclass says of each environment, shape (envs,)."""
+        if np.shape(values) != (self.num_envs,):
+            raise ValueError(f"{what} gave the shape {np.shape(values)}; expected "
+                             f"({self.num_envs},)")
+        return values
 
     def _act(self, actions: Array) -> None:
         """One frame with these actions. Raises InvalidError where one is no finite number."""
@@ -412,6 +474,7 @@ class SingleEnv(gymnasium.Env[Array, Array]):
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """An action (actions,); observation (size,), reward, terminated, truncated, info."""
+        _check_actions(action, self.action_space)
         observations, rewards, terminated, truncated, infos = self.envs.step(
             np.asarray(action)[None])
         return (observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]),

@@ -57,15 +57,15 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
         if name == "physics":
             _select_physics(arguments, value)
         elif name == "session":
-            arguments.session = os.fspath(value)
+            arguments.session = path_of(value)
         elif name in ("search_paths", "sandbox", "allow_read"):
-            setattr(arguments, name, [os.fspath(path) for path in list_of(name, value)])
+            setattr(arguments, name, [path_of(path) for path in list_of(name, value)])
         elif name == "variant_fallbacks":
             arguments.variant_fallbacks = {k: list(v) for k, v in value.items()}
         elif name == "contents":
             for path, text in value.items():
                 bytes_of = text.encode() if isinstance(text, str) else bytes(text)
-                arguments.set_contents(os.fspath(path), bytes_of)
+                arguments.set_contents(path_of(path), bytes_of)
         elif name == "readings":
             arguments.readings = dict(value)
         elif name == "max_work":
@@ -83,8 +83,13 @@ def arguments_of(given: Mapping[str, Any]) -> OpenArguments:
 
 
 def path_of(path: PathLike) -> str:
-    """A path as str. Raises TypeError, in Python's words, for what is no path."""
-    return os.fsdecode(path)
+    """A path as str. Raises TypeError, in Python's words, for what is no path, ValueError for what
+    no file is called."""
+    name = os.fsdecode(path)
+    os.fsencode(name)  # raises for half characters
+    if "\0" in name:
+        raise ValueError(f"no file is called {name!r}: there is a null character in it")
+    return name
 
 
 def list_of(name: str, value: Any) -> list[Any]:
@@ -103,6 +108,8 @@ def _work_of(value: Any) -> int:
 
 def _select_physics(arguments: OpenArguments, text: str) -> None:
     arguments.physics_below = True
+    if not isinstance(text, str):
+        raise TypeError(f"physics is a str, not {text!r}")
     for part in filter(None, text.split(",")):
         if "=" in part:
             arguments.physics_of = [*arguments.physics_of, part]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._arrays import seconds
 from .log import AXES, BODY, SI_UNITS, Log, make_log
 
 if TYPE_CHECKING:
@@ -34,7 +35,8 @@ def record(world: World, duration: float, every: float = 1 / 60, env: int = 0,
     state that it is in, with all outputs that the World was made with. `contacts` says whether
     contacts are among them; None: where the World has them. SI and radians."""
     step = world.time_step
-    total, stride = round(duration / step), max(1, round(every / step))
+    total = round(seconds("duration", duration) / step)
+    stride = max(1, round(seconds("every", every) / step))
     taken = _Taken(world, env, "contacts" in world.outputs if contacts is None else contacts)
     done = 0
     while True:

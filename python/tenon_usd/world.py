@@ -18,10 +18,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tenon
-from ._arrays import checked_poses, counted, finite, index, locked, place, spread, texts
+from ._arrays import (
+    checked_poses, counted, environments, finite, index, locked, named, place, seconds, spread,
+    texts)
 from ._lists import no_such, table
 from .errors import Error, ExportWarning, InvalidError, NotFoundError, UnstableError
-from .options import OpenOptions, PathLike, arguments_of
+from .options import OpenOptions, PathLike, arguments_of, path_of
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -43,22 +45,27 @@ class World:
 
     World("grasp.usda", envs=64) makes 64 of them from one compiled model. `asset` is a file, or a
     stage of tenon_usd.open() with the edits that it has now, saved or not, opened as the stage was;
-    `options` are for files alone. `engine` is a name as of
-    tenon_usd.engines(); None: what the asset's variant asks for, else MuJoCo. `threads` are as many
-    as the process may use where it is 0. `time_step` [s] is the asset's where it is 0. `outputs`
-    name what can be read beside states: contacts, efforts, reactions, accelerations, work, sensors.
-    World.outputs has them. `vary` are texts such as "bodyMass=0.8..1.2", "gravity=0.9..1.1" or
-    "colliderFriction@/can=0.5..1.5": what each environment draws of them depends on `seed` and its
-    number alone. `deactivate` skips links with all that hangs on them, joints, or what is below a
-    prim; `bypass` holds the sides of joints as they start, or skips single links; `anchor` fixes
-    links to the world where they start: paths, names or regular expressions each, and diagnostics
-    say what was masked. `options` are those of tenon_usd.open(). Raises errors of tenon_usd.errors.
+    `options` are for files alone. `engine` is a name as of tenon_usd.engines(); None: what the
+    asset's variant asks for, else MuJoCo. `threads` are as many as the process may use where it is
+    0. `time_step` [s] where it is 0 is the asset's, divided until it is at most 4 ms, else 2 ms.
+    `outputs` name what can be read beside states: contacts, efforts, reactions, accelerations,
+    work, sensors. World.outputs has them. `vary` are texts such as "bodyMass=0.8..1.2",
+    "gravity=0.9..1.1" or "colliderFriction@/can=0.5..1.5": what each environment draws of them
+    depends on `seed` and its number alone. `deactivate` skips links with all that hangs on them,
+    joints, or what is below a prim; `bypass` holds the sides of joints as they start, or skips
+    single links; `anchor` fixes links to the world where they start: paths, names or regular
+    expressions each, and diagnostics say what was masked. `integrator` is euler, implicitfast,
+    implicit or rk4. `options` are those of tenon_usd.open(). Raises errors of tenon_usd.errors.
 
     Properties are read-only arrays of that moment: what is written into them would be lost, so that
     it raises. Whole properties are set (world.joint_positions = ...); methods give arrays that
     belong to the caller. Ctrl-C ends step() between two steps, all environments at the same one.
     A world is in one process and is not copied or pickled: see save() and restore().
     """
+
+    # A property that is misspelt is no new attribute.
+    __slots__ = ("_asset", "_batch", "_first_targets", "_first_velocities", "_lost", "_masked",
+                 "_open_options", "_outputs", "_target_velocities", "_targets", "__weakref__")
 
     def __init__(
         self,
@@ -85,8 +92,9 @@ class World:
         masks = (texts("deactivate", deactivate), texts("bypass", bypass), texts("anchor", anchor))
         self._masked = any(masks)
         how = _tenon.BatchOptions(
-            engine or "", envs, counted("threads", threads), counted("seed", seed),
-            float(time_step), self._outputs, texts("vary", vary), integrator, _tenon.Masks(*masks)
+            named("engine", engine), envs, counted("threads", threads), counted("seed", seed),
+            seconds("time_step", time_step), self._outputs, texts("vary", vary),
+            named("integrator", integrator), _tenon.Masks(*masks)
         )
         self._asset, self._open_options = asset, options
         if isinstance(asset, _tenon.Stage):
@@ -94,7 +102,7 @@ class World:
                 raise TypeError(f"{', '.join(options)}: a stage was opened with its own options")
             self._batch = _tenon.make_batch_of(asset, how)
         else:
-            self._batch = _tenon.make_batch(os.fspath(asset), arguments_of(options), how)
+            self._batch = _tenon.make_batch(path_of(asset), arguments_of(options), how)
         self._lost: list[Diagnostic] = []  # by the models of to_mjcf()
         drives = [drive for joint in self._batch.scene().joints for drive in joint.drives]
         self._first_targets = np.array([drive.target_position for drive in drives])
@@ -219,7 +227,7 @@ class World:
     def reset(self, envs: SupportsIndex | Sequence[int] | npt.NDArray[Any] | None = None) -> None:
         """Back to the start, with what was drawn: all environments, some by number (-1: the last),
         or a mask of shape (envs,) of bool."""
-        which = self._which(envs)
+        which = environments(envs, self.envs)
         self._batch.reset(which)
         self._targets[which] = self._first_targets
         self._target_velocities[which] = self._first_velocities
@@ -233,7 +241,7 @@ class World:
 
     @joint_positions.setter
     def joint_positions(self, values: npt.ArrayLike) -> None:
-        self.set_joints(positions=values)
+        self.set_joints(positions=self._joint_numbers("joint_positions", values))
 
     @property
     def joint_velocities(self) -> Array:
@@ -242,7 +250,7 @@ class World:
 
     @joint_velocities.setter
     def joint_velocities(self, values: npt.ArrayLike) -> None:
-        self.set_joints(velocities=values)
+        self.set_joints(velocities=self._joint_numbers("joint_velocities", values))
 
     def joints(self) -> tuple[Array, Array]:
         """Positions [rad or m] and velocities [rad/s or m/s], both of shape (envs, joints): arrays
@@ -257,11 +265,13 @@ class World:
         The bodies behind the joints move along. Raises UnsupportedError where the engine cannot.
         """
         now = self._batch.joints()
-        shape = now[0].shape
         self._batch.set_joints(
-            now[0] if positions is None else spread(positions, shape),
-            now[1] if velocities is None else spread(velocities, shape),
+            now[0] if positions is None else self._joint_numbers("positions", positions),
+            now[1] if velocities is None else self._joint_numbers("velocities", velocities),
         )
+
+    def _joint_numbers(self, what: str, values: npt.ArrayLike) -> Array:
+        return spread(what, values, (self.envs, len(self.joint_names)))
 
     # ---- drives
 
@@ -272,7 +282,7 @@ class World:
 
     @drive_targets.setter
     def drive_targets(self, values: npt.ArrayLike) -> None:
-        self.set_drive_targets(values)
+        self.set_drive_targets(finite("drive_targets", values, self._targets.shape))
 
     def set_drive_targets(
         self, positions: npt.ArrayLike | None = None, velocities: npt.ArrayLike | None = None
@@ -284,7 +294,8 @@ class World:
         changes then.
         """
         shape = self._targets.shape
-        wanted = [None if v is None else finite(v, shape) for v in (positions, velocities)]
+        wanted = [None if values is None else finite(what, values, shape) for what, values in
+                  (("positions", positions), ("velocities", velocities))]
         for held, new in zip((self._targets, self._target_velocities), wanted):
             if new is not None:
                 held[:] = new
@@ -295,7 +306,7 @@ class World:
 
         They hold until they are set anew or reset.
         """
-        self._batch.set_efforts(spread(efforts, (self.envs, len(self.joint_names))))
+        self._batch.set_efforts(spread("efforts", efforts, (self.envs, len(self.joint_names))))
 
     def drive_efforts(self) -> Array:
         """Mean forces of the drives in the last step [N m or N], shape (envs, drives).
@@ -326,13 +337,14 @@ class World:
         """Puts a body that moves freely elsewhere: poses (envs, 7) [m], velocities (envs, 6)
         [m/s, rad/s], as body_poses and body_velocities have them, or what broadcasts to it.
 
-        `body` is a path or an index into body_names. Quaternions are made unit ones. InvalidError
-        for a quaternion of 0 and for what is not finite.
+        `body` is a path, its last element or an index into body_names. Quaternions are made unit
+        ones. InvalidError for a quaternion of 0 and for what is not finite.
         """
         self._batch.set_body(
             self._body(body),
             checked_poses(poses, self.envs),
-            np.zeros((self.envs, 6)) if velocities is None else spread(velocities, (self.envs, 6)),
+            np.zeros((self.envs, 6)) if velocities is None else
+            spread("velocities", velocities, (self.envs, 6)),
         )
 
     def move_kinematic(self, body: str | SupportsIndex, poses: npt.ArrayLike) -> None:
@@ -344,7 +356,7 @@ class World:
 
         They hold until they are set anew or reset.
         """
-        self._batch.set_wrench(self._body(body), spread(wrenches, (self.envs, 6)))
+        self._batch.set_wrench(self._body(body), spread("wrenches", wrenches, (self.envs, 6)))
 
     # ---- numbers of each environment
 
@@ -355,7 +367,7 @@ class World:
 
     @gravity.setter
     def gravity(self, values: npt.ArrayLike) -> None:
-        self._batch.set_gravity(spread(values, (self.envs, 3)))
+        self._batch.set_gravity(spread("gravity", values, (self.envs, 3)))
 
     def set_parameter(self, name: str, path: str, values: npt.ArrayLike, drive: int = 0) -> None:
         """A number of one object in every environment, shape (envs,) or one for all.
@@ -365,8 +377,8 @@ class World:
         "jointFriction" [N m or N] or "jointArmature" [kg m^2 or kg]; `path` the body, collider or
         joint; `drive` the number of the drive at the joint. It holds until it is set anew or reset.
         """
-        if name not in PARAMETERS:
-            raise NotFoundError(f"parameter: {no_such(name, PARAMETERS)}")
+        if named("name", name) not in PARAMETERS:
+            raise NotFoundError(f"name: {no_such(name, PARAMETERS)}")
         paths = (
             self.body_names
             if name.startswith("body")
@@ -375,7 +387,8 @@ class World:
             else self._batch.joint_paths()
         )
         self._batch.set_parameter(
-            name, index(paths, path), counted("drive", drive), spread(values, (self.envs,))
+            name, index("path", paths, path), counted("drive", drive),
+            spread("values", values, (self.envs,))
         )
 
     @property
@@ -454,6 +467,10 @@ class World:
         """
         if isinstance(states, bytes):
             states = [states] * self.envs
+        if isinstance(states, (str, bytearray)) or not all(
+                isinstance(state, bytes) for state in states):
+            raise TypeError("states are bytes of save(), or a list of them, one for each "
+                            "environment")
         if len(states) != self.envs:
             raise ValueError(f"{len(states)} states for {self.envs} environments")
         for i, state in enumerate(states):
@@ -530,7 +547,7 @@ class World:
     def _source(self) -> Stage:
         """The stage that the world was made of."""
         return self._asset if isinstance(self._asset, _tenon.Stage) else _tenon.open_stage(
-            os.fspath(self._asset), arguments_of(self._open_options))
+            path_of(self._asset), arguments_of(self._open_options))
 
     # ---- the rest
 
@@ -568,21 +585,10 @@ class World:
     def _env(self, env: SupportsIndex) -> int:
         return place("environment", env, self.envs)
 
-    def _which(self, envs: SupportsIndex | Sequence[int] | npt.NDArray[Any] | None) -> list[int]:
-        if envs is None:
-            return list(range(self.envs))
-        chosen = np.atleast_1d(np.asarray(envs))
-        if chosen.dtype == bool:
-            if chosen.shape != (self.envs,):
-                raise ValueError(f"a mask of shape {chosen.shape} for {self.envs} environments")
-            chosen = np.flatnonzero(chosen)
-        elif chosen.size and chosen.dtype.kind not in "iu":
-            raise TypeError(f"environments are numbers of type int or a mask, not {envs!r}")
-        return [self._env(int(i)) for i in chosen.reshape(-1)]
-
     def _body(self, body: str | SupportsIndex) -> int:
         names = self.body_names
-        return index(names, body) if isinstance(body, str) else place("body", body, len(names))
+        return index("body", names, body) if isinstance(body, str) else place(
+            "body", body, len(names))
 
 
 _NO_COPY = (

@@ -3,6 +3,7 @@
 """What worlds and scenes give: nothing swallows a write, everything that can be asked for can be
 read, sequences take numbers, slices and paths, and errors speak Python."""
 
+import functools
 import inspect
 import itertools
 import re
@@ -316,6 +317,68 @@ class Words(support.FilesTestCase):
             tenon.World(support.GRASP, outputs=["contact"])
         with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'phsyics'.*physics"):
             tenon.open(support.GRASP, phsyics="mujoco")
+
+    def test_messages_name_the_argument_what_is_expected_and_what_came(self):
+        world = tenon.World(support.GRASP, envs=2, threads=1)
+        joints = len(world.joint_names)
+        with self.assertRaises(AttributeError):
+            world.drive_target = 1  # no new attribute for a property that is misspelt
+        for name in ("joint_positions", "joint_velocities", "gravity", "drive_targets"):
+            wide = getattr(world, name).shape[1]
+            for value, kind, told in (
+                    (np.zeros((2, 99)), ValueError, rf"\(2, 99\); expected \(2, {wide}\)"),
+                    (None, TypeError, rf"of the shape \(2, {wide}\).*not NoneType"),
+                    ("far", TypeError, "not numbers of <U3"), (1j, TypeError, "complex"),
+                    ([[1], [1, 2]], ValueError, "rows of different lengths"),
+                    ((n for n in (1, 2)), TypeError, "generator")):
+                with self.assertRaisesRegex(kind, f"^{name} .*{told}"):
+                    setattr(world, name, value)
+        make = functools.partial(tenon.World, support.GRASP)
+        for call, kind, told in (
+                (lambda: world.set_joints(velocities=[1, 2, 3]), ValueError,
+                 rf"velocities has the shape \(3,\); expected \(2, {joints}\)"),
+                (lambda: world.set_efforts([1, 2, 3]), ValueError, "efforts has the shape"),
+                (lambda: world.set_wrench(CAN, [1, 2]), ValueError, r"wrenches .*\(2, 6\)"),
+                (lambda: world.set_wrench(None, [1, 2]), TypeError, "body is .*, not None"),
+                (lambda: world.set_body(CAN, [1, 2]), ValueError, r"^poses .*\(2, 7\)"),
+                (lambda: world.set_parameter("bodyMass", CAN, [1, 2, 3]), ValueError,
+                 r"values has the shape \(3,\)"),
+                (lambda: world.set_parameter("bodyMass", 0, 1), TypeError, "path is a path, not 0"),
+                (lambda: world.set_parameter(0, CAN, 1), TypeError, "name is a str, not 0"),
+                (lambda: world.step(1 << 64), ValueError, "count must be at most"),
+                (lambda: world.restore("text"), TypeError, "states are bytes"),
+                (lambda: world.restore([None, None]), TypeError, "states are bytes"),
+                (lambda: make(envs=10**30), ValueError, "envs must be at most"),
+                (lambda: make(envs="2"), TypeError, "envs is a whole number, not '2'"),
+                (lambda: make(seed=-1), ValueError, "seed must be 0 or more, not -1"),
+                (lambda: make(seed=1 << 64), ValueError, "seed must be at most"),
+                (lambda: make(time_step=np.nan), tenon.InvalidError, "time_step .*, not nan"),
+                (lambda: make(time_step=-1), tenon.InvalidError, "time_step .*, not -1"),
+                (lambda: make(time_step="fast"), TypeError, "time_step .*, not 'fast'"),
+                (lambda: make(engine=3), TypeError, "engine is a str, not 3"),
+                (lambda: make(integrator=4), TypeError, "integrator is a str, not 4"),
+                (lambda: make(outputs=None), TypeError, "outputs is a list of str, not None"),
+                (lambda: make(vary=[1]), TypeError, "vary is a list of str; 1 in it"),
+                (lambda: make(deactivate=[support.GRASP]), TypeError, "deactivate is a list of"),
+                (lambda: make(physics=3), TypeError, "physics is a str, not 3"),
+                (lambda: tenon.World("a\0b.usda"), ValueError, "null character"),
+                (lambda: tenon.open("\ud800.usda"), UnicodeEncodeError, "surrogates"),
+                (lambda: tenon.rule("joint.body-missin"), KeyError, "did you mean"),
+                (lambda: logs.record(world, -1), tenon.InvalidError, "duration .*, not -1"),
+                (lambda: logs.record(world, 1, np.nan), tenon.InvalidError, "every .*, not nan"),
+                (lambda: tenon.convert("a.urdf", "b.usda", gains=(1, 2, 3)), TypeError,
+                 r"two numbers \(K, D\).*not \(1, 2, 3\)")):
+            with self.assertRaisesRegex(kind, told, msg=inspect.getsource(call)):
+                call()
+        self.assertEqual(make(integrator=None, seed=(1 << 64) - 1).envs, 1)
+
+    def test_bodies_are_named_by_the_last_element_of_their_path(self):
+        world = tenon.World(support.GRASP, threads=1)
+        world.set_body("can", [0, 0, 3, 1, 0, 0, 0])
+        np.testing.assert_allclose(world.body_poses[0, world.body_names.index(CAN), 2], 3)
+        world.set_parameter("bodyMass", "can", 0.5)
+        with self.assertRaisesRegex(tenon.NotFoundError, "body: there is no 'cann'"):
+            world.set_body("cann", [0, 0, 3, 1, 0, 0, 0])
 
     def test_numbers_of_numpy_and_from_the_end_are_numbers(self):
         world = tenon.World(support.GRASP, envs=np.int64(2))

@@ -37,6 +37,7 @@ KINDS = """at rotate scale size radius height width length axis file file-meters
     mass com inertia principal-axes material with dof low high stiffness damping max-force
     target-position target-velocity drive-type leader multiplier offset variant""".split()
 IN_MEMORY = "edits are in memory: Stage.undo() takes them back, and nothing is written"
+MASKED = "links and joints are skipped and held by tenon tune alone"
 SIMREADY = "tenon convert and tenon structure have it: a browser draws the picture of it"
 UPDATE = {"--update": "{0}(update=)", "--conflicts": "{0}(conflicts=)", "--force": "{0}(force=)",
           "--profile": SIMREADY, "--robot-type": "{0}(robot_type=)", "--metadata": SIMREADY,
@@ -71,8 +72,11 @@ AUTHORING = {
         "--write-baseline": "the command writes it once, in a repository", "--list-rules": "rules",
         "--explain": "rule",
     },
-    "colliders": "Stage.set(collider=) chooses how a shape is made; what fits is computed by the "
-                 "command alone",
+    "colliders": {
+        "asset": "colliders(path=)", "--engine": "colliders(engine=)",
+        "--colliders": "colliders(colliders=)", "--try": "colliders(approximation=)",
+        "--budget": "colliders(budget=)", "--gap": "colliders(gap=)", "--save": "colliders(save=)",
+    },
     "convert": {
         **update_of("convert"), "input": "convert(input=)", "--output": "convert(output=)",
         "--package": "convert(packages=)", "--arg": "convert(arg=)", "--model": "convert(model=)",
@@ -136,7 +140,20 @@ AUTHORING = {
         "--overridable-colliders": "structure(overridable_colliders=)",
         "--dry-run": "structure() without a folder writes nothing",
     },
-    "tune": "Stage.set(drive=) writes gains; tuned ones are computed by the command alone",
+    "tune": {
+        "asset": "tune(path=)", "--joints": "tune(joints=)", "--frequency": "tune(frequency=)",
+        "--damping-ratio": "tune(damping_ratio=)", "--gains": "tune(gains=)",
+        "--save": "tune(save=)", "--force": "tune(force=)", "--engine": "tune(engine=)",
+        "--test": "tune(test=)", "--sequence": "tune(sequence=)", "--period": "tune(period=)",
+        "--amplitude": "tune(amplitude=)", "--duration": "tune(duration=)",
+        "--seed": "tune(seed=)", "--adversarial": "tune(adversarial=)",
+        "--search": "tune(search=)", "--overshoot": "tune(overshoot=)",
+        "--settle": "tune(settle=)", "--payload": "tune(masses=)", "--at": "tune(at=)",
+        "--poses": "tune(poses=)", "--dt": "tune(time_step=)", "--set": "tune(overrides=)",
+        "--deactivate": MASKED, "--bypass": MASKED, "--anchor": MASKED,
+        "--output": "the answer is what .json has, its rows are tables; tenon tune -o draws the "
+                    "page",
+    },
     "undo": {"asset": "undo(path=), Stage.undo", "--dry-run": "undo(dry_run=)"},
     "variant": {
         "asset": "open", "selection": "Prim.select_variant, Prim.variants", "--prim": "Stage.prim",

@@ -369,6 +369,17 @@ class Refused(support.FilesTestCase):
             tenon.Dynamics(slide, {"s": 1.5e308, "t": 1.5e308})
         self.assertEqual((caught.exception.rule, caught.exception.prim), ("pose.bad-value", "/W/b"))
 
+    def test_messages_name_the_argument_and_its_shape(self):
+        for call, kind, told in (
+                (lambda: self.dynamics.bias_forces([1, 2, 3]), ValueError,
+                 r"velocities has the shape \(3,\); expected \(2,\)"),
+                (lambda: self.dynamics.along_held("far"), TypeError, "forces is an array"),
+                (lambda: self.dynamics.jacobian(0, [1, 2]), ValueError,
+                 r"point has the shape \(2,\)"),
+                (lambda: self.dynamics.jacobian(1.5), TypeError, "body is .*, not 1.5")):
+            with self.assertRaisesRegex(kind, told):
+                call()
+
     def test_types(self):
         for arguments in ((support.HAND,), (None,), (tenon.open(support.HAND),),
                           (self.scene, 1), (self.scene, ["first=1"]), (self.scene, {1: 2}),

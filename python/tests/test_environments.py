@@ -91,6 +91,52 @@ class Environments(support.FilesTestCase):
         return AssetVectorEnv(self.written("pendulum.usda", PENDULUM), num_envs, **options)
 
 
+class Wrong(Environments):
+    def test_messages_name_the_argument_what_is_expected_and_what_came(self):
+        envs = self.pendulum()
+        make = self.pendulum
+        for call, kind, told in (
+                (lambda: envs.step(np.zeros(3)), ValueError, r"\(3,\); expected \(3, 1\)"),
+                (lambda: envs.step(np.zeros((3, 2))), ValueError, r"\(3, 2\); expected \(3, 1\)"),
+                (lambda: envs.reset(seed=-1), ValueError, "seed must be 0 or more, not -1"),
+                (lambda: envs.reset(seed="a"), TypeError, "seed is a whole number, not 'a'"),
+                (lambda: envs.reset(seed=[1]), ValueError, "1 seeds for 3 environments"),
+                (lambda: envs.reset(options={"reset_mask": np.array([0, 1, 2])}), ValueError,
+                 "reset_mask is a mask of bool .*int64"),
+                (lambda: make(-1), ValueError, "num_envs must be 0 or more, not -1"),
+                (lambda: make(2.0), TypeError, "num_envs is a whole number, not 2.0"),
+                (lambda: make(0), tenon_usd.LimitError, "0 environments"),
+                (lambda: make(frame_time=0), tenon_usd.InvalidError, "frame_time must be above 0"),
+                (lambda: make(frame_time=np.nan), tenon_usd.InvalidError, "frame_time .*nan"),
+                (lambda: make(episode_time=-1), tenon_usd.InvalidError, "episode_time .*-1"),
+                (lambda: make(bodies=["bab"]), tenon_usd.NotFoundError, "bodies: .*World/bob"),
+                (lambda: make(observations="energy"), TypeError, "observations is a list"),
+                (lambda: make(vary={"bodyMass": 3}), TypeError, "bodyMass is drawn from a distr"),
+                (lambda: make(noise=0.1), TypeError, "noise is drawn from a distribution"),
+                (lambda: make(frame_tim=1), TypeError, "did you mean 'frame_time'"),
+                (lambda: make(phsyics="a"), TypeError, "did you mean 'physics'")):
+            with self.assertRaisesRegex(kind, told, msg=told):
+                call()
+        one = gymnasium.make("tenon_usd.gym:tenon/Balance-v0").unwrapped
+        one.reset(seed=3)
+        with self.assertRaisesRegex(ValueError, r"\(\); expected \(1,\)"):
+            one.step(0.5)
+
+    def test_seeds_may_be_numbers_of_numpy(self):
+        envs = self.pendulum(vary={"jointPosition": Uniform(-0.1, 0.1)})
+        first, _ = envs.reset(seed=np.int64(3))
+        again, _ = envs.reset(seed=np.array([3, 4, 5]))
+        np.testing.assert_array_equal(first, again)
+
+    def test_a_frame_is_told_where_it_is_no_whole_number_of_steps(self):
+        with self.assertWarnsRegex(UserWarning, "0.015 s is no whole .* 0.01 s: it takes 0.02 s"):
+            envs = self.pendulum(frame_time=0.015, time_step=0.01)
+        self.assertEqual(envs.frame_steps, 2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", UserWarning)
+            self.pendulum(frame_time=0.02, time_step=0.01)
+
+
 class Specs(Environments):
     def test_numbers_say_what_they_are(self):
         envs = self.pendulum(bodies=["/World/bob"])

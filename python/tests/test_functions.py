@@ -135,6 +135,59 @@ def Xform "W"
         self.assertEqual(answer["exceeded"], [])
 
 
+class Tuning(support.FilesTestCase):
+    JOINT = "right_index_1_joint"
+
+    def test_gains_are_those_of_the_program(self):
+        path = self.copied_hand()
+        name = os.path.relpath(path)
+        told = tenon.tune(path, joints=[self.JOINT], frequency=8, damping_ratio=1)
+        told.pop("diagnostics")
+        self.assertEqual(told, printed("tune", name, "--joints", self.JOINT, "--frequency", 8,
+                                       "--damping-ratio", 1))
+        saved = tenon.tune(path, joints=[self.JOINT], frequency=8, damping_ratio=1, save=True)
+        self.assertTrue(saved["written"])
+        rows = {row["joint"]: row for row in tenon.tune(path, joints=[self.JOINT])["drives"]}
+        row = rows[f"/inspire_hand/Physics/{self.JOINT}"]
+        self.assertAlmostEqual(row["frequencyHz"], 8, 5)
+        result = tenon.tune(path, joints=[self.JOINT], test="snap", engine="mujoco",
+                            time_step=0.002)["engines"][0]["results"]
+        self.assertEqual([one["verdict"] for one in result], ["pass"])
+
+    def test_what_makes_no_sense_is_refused(self):
+        for wrong in ({"save": True}, {"frequency": 0}, {"masses": [1.0]}, {"search": True,
+                      "frequency": 1}, {"test": "snip"}, {"time_step": -1}):
+            with self.assertRaises((ValueError, tenon.InvalidError), msg=wrong):
+                tenon.tune(support.HAND, **wrong)
+        for wrong in ({"gap": 0.1}, {"save": True}, {"budget": 8, "approximation": "hull"},
+                      {"approximation": "hulls"}):
+            with self.assertRaises((ValueError, tenon.InvalidError), msg=wrong):
+                tenon.colliders(support.HAND, **wrong)
+
+    def test_a_search_is_that_of_the_program(self):
+        libraries = {row["name"]: row["available"] for row in tenon.doctor()["libraries"]}
+        if not libraries["nlopt"]:
+            self.skipTest("no NLopt here: apt-get install libnlopt0")
+        found = tenon.tune(support.HAND, joints=[self.JOINT], search=True, settle=0.3,
+                           overshoot=0.05, engine="mujoco")
+        found.pop("diagnostics")
+        self.assertEqual(found, printed("tune", os.path.relpath(support.HAND), "--joints",
+                                        self.JOINT, "--search", "--settle", 0.3, "--overshoot",
+                                        "5%", "--engine", "mujoco"))
+        self.assertEqual(len(found["search"]["drives"].table()), 1)
+
+    def test_colliders_are_chosen_and_written(self):
+        path = self.copied_hand()
+        told = tenon.colliders(path, "mujoco", budget=64)
+        told.pop("diagnostics")
+        name = os.path.relpath(path)
+        self.assertEqual(told, printed("colliders", name, "--engine", "mujoco", "--budget", 64))
+        rows = told["engines"][0]["colliders"]
+        self.assertEqual(len(rows.table()), len(rows))
+        saved = tenon.colliders(path, "mujoco", budget=64, save=True)
+        self.assertEqual(saved["written"], bool(told["request"]))
+
+
 class Poses(support.FilesTestCase):
     def test_pose_is_found_saved_and_listed_as_by_the_program(self):
         path = self.copied_hand()

@@ -20,6 +20,7 @@ ARGUMENTS = {
     "edit.py": [HAND, "/inspire_hand/Physics/right_index_1_joint", "60"],
     "grasp.py": ["hand/grasp.usda"],
     "masses.py": [HAND],
+    "reacher.py": ["."],
 }
 SAID = {
     "author.py": "the box lies at 0.1 m",
@@ -27,6 +28,7 @@ SAID = {
     "edit.py": "errors: 0",
     "grasp.py": "observations (8, 31)",
     "masses.py": "together 0.5400 kg",
+    "reacher.py": "observations (64, 7)",
 }
 
 

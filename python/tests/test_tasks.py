@@ -16,6 +16,7 @@ try:
     from tenon_usd import tasks
     from tenon_usd.actuators import DCMotor, Delay, PD, Saturation
     from tenon_usd.draws import LogUniform, Normal, Uniform
+    from tenon_usd.observations import Entry
 except ImportError as reason:
     print(f"skipped: {reason}")
     sys.exit(77)
@@ -81,10 +82,13 @@ class Reading(Files):
                 (head + "[[reset]]\nof = 'bodyMass@x'\nvalue = 1\n", "jointVelocity@JOINT"),
                 (head + "[[action]]\njoints = 'x'\ncommand = 'torque'\n", "effort"),
                 (head + "[[action]]\njoints = 'x'\nstages = [{dc_motor = {stall_effort = 1, "
-                 "no_load_speed = 2}}]\n", "PD stands before it"),
+                 "no_load_speed = 2}}]\n", "PID stands before it"),
                 (head + "[[action]]\njoints = 'x'\nstages = [{delay = -1}]\n", "0 or more"),
                 (head + "[[action]]\njoints = 'x'\nstages = [{pd = {stiffness = 1}}]\n", "damping"),
-                (head + "[[reward]]\nterm = 'near'\n", "of is None"),
+                (head + "[[reward]]\nterm = 'near'\n", "`of` is missing"),
+                (head + "[[action]]\njoints = ['x', 3]\n", "or a list of them"),
+                (head + "[[reset]]\nof = 'position@x'\nvalue = 1\n", "position.x@BODY"),
+                (head + "[[reset]]\nof = 'yaw'\nvalue = 1\n", "yaw@BODY"),
                 (head + "[[reward]]\nterm = 'constant'\n[[reward]]\nterm = 'constant'\n",
                  "two are called"),
                 (head + "[[termination]]\nof = 'energy'\n", "above, below, beyond, within")):
@@ -93,6 +97,18 @@ class Reading(Files):
         self.assertTrue(self.faults("#" * (1 << 20) + "\n"))
         with self.assertRaises(FileNotFoundError):
             tasks.load("nothing.toml")
+
+    def test_joints_are_commanded_in_the_order_of_a_list(self):
+        head = f'asset = "{tasks.EXAMPLES / "cart_pole.usda"}"\n[[action]]\ncommand = "effort"\n'
+        head += 'low = -1\nhigh = 1\n'
+        for joints in (["hinge", "slide"], ["slide", "hinge"]):
+            envs = tasks.TaskEnv(self.load(f"{head}joints = {joints}\n"))
+            self.assertEqual([entry.name for entry in envs.action_spec],
+                             [f"command@/CartPole/{joint}" for joint in joints])
+
+    def test_a_task_that_the_package_has_not(self):
+        with self.assertRaisesRegex(tenon.MissingFileError, "did you mean 'balance'.*toml"):
+            tasks.load("balanc")
 
     def test_errors_travel(self):
         with self.assertRaises(tasks.TaskError) as caught:
@@ -159,6 +175,105 @@ class Balance(Files):
             self.assertFalse(terminated.any())
             total += rewards
         np.testing.assert_array_equal(total, 500)
+
+
+class Placed(Files):
+    """Bodies and joints where rows [[reset]] put them, and what is observed of a place."""
+
+    TEXT = """asset = "box.usda"
+[[observation]]
+of = "position@Box"
+to = "goal.place"
+
+[[observation]]
+of = "position.z@Box"
+to = 1
+scale = 2
+
+[[goal]]
+name = "place"
+values = [{uniform = [1, 2]}, 0, 1]
+
+[[reset]]
+of = "position.x@Box"
+uniform = [-0.3, 0.3]
+
+[[reset]]
+of = "position.z@/World/Box"
+value = 3
+
+[[reset]]
+of = "yaw@Box"
+choice = [0.5]
+"""
+
+    def setUp(self):
+        super().setUp()
+        stage = tenon.new(self.folder / "box.usda")
+        stage.add("/World/Box", "cube", "body", "collider", size=0.2, at=(0, 5, 1))
+        stage.save()
+
+    def test_bodies_begin_where_they_are_drawn(self):
+        for engine in ENGINES:
+            with self.subTest(engine):
+                envs = tasks.TaskEnv(self.load(self.TEXT), 4, engine=engine)
+                observations, _ = envs.reset(seed=3)
+                poses = envs.world.body_poses[:, 0]
+                x = poses[:, 0].copy()
+                self.assertEqual(len(np.unique(x)), 4)
+                self.assertTrue((np.abs(x) <= 0.3).all())
+                turned = [np.cos(0.25), 0, 0, np.sin(0.25)]
+                np.testing.assert_allclose(poses[:, 1:], [[5, 3, *turned]] * 4, atol=1e-6)
+                np.testing.assert_allclose(observations[:, :3],
+                                           poses[:, :3] - envs.goals["place"], atol=1e-12)
+                np.testing.assert_allclose(observations[:, 3], 4, atol=1e-6)
+                envs.step(np.zeros((4, 0)))
+                again, _ = envs.reset(options={"reset_mask": np.array([True, False, True, False])})
+                moved = envs.world.body_poses[:, 0, 0] != x
+                self.assertEqual(moved.tolist(), [True, False, True, False])
+                np.testing.assert_allclose(again[:, 3] > 3.999, moved)  # the others fall on
+
+    def test_observations_say_what_they_are_seen_from(self):
+        envs = tasks.TaskEnv(self.load(self.TEXT))
+        names = [entry.name for entry in envs.observation_spec]
+        self.assertEqual(names, [
+            *(f"position.{axis}@/World/Box - goal.place" for axis in "xyz"),
+            "position.z@/World/Box - 1"])
+        faults = self.faults(self.TEXT.replace("to = 1", "to = [1, 2]"), make=True)
+        self.assertEqual([(row, line) for row, line, _ in faults], [("observation 2", 6)])
+
+    def test_bodies_that_there_are_not(self):
+        faults = self.faults(self.TEXT.replace("yaw@Box", "yaw@Bax"), make=True)
+        self.assertEqual([(row, line) for row, line, _ in faults], [("reset 3", 23)])
+        self.assertIn("did you mean '/World/Box'", faults[0][2])
+
+
+class Ported(Files):
+    def test_a_model_of_mujoco_moves_as_it_does_there(self):
+        import mujoco  # of the environment that has Gymnasium, too
+
+        examples = support.ROOT / "python/examples"
+        tenon.convert(examples / "reacher.xml", self.folder / "reacher.usda", scene=True)
+        envs = tasks.TaskEnv(examples / "reacher.toml", 3, asset=self.folder / "reacher.usda")
+        observations, _ = envs.reset(seed=2)
+        model = mujoco.MjModel.from_xml_path(str(examples / "reacher.xml"))
+        others = [mujoco.MjData(model) for _ in range(3)]
+        for data, row in zip(others, observations):
+            data.qpos[:] = row[:2]
+        random = np.random.default_rng(4)
+        for _ in range(60):
+            actions = random.uniform(-1, 1, (3, 2))
+            observations = envs.step(actions)[0]
+            for data, action in zip(others, actions):
+                data.ctrl[:] = action
+                mujoco.mj_step(model, data, 2)
+        for name in ("qpos", "qvel"):
+            there = dict(zip(("shoulder", "elbow"), np.array([getattr(data, name)
+                                                              for data in others]).T))
+            kind = {"qpos": "jointPosition", "qvel": "jointVelocity"}[name]
+            for joint, numbers in there.items():
+                np.testing.assert_allclose(envs.values(f"{kind}@{joint}")[:, 0], numbers,
+                                           atol=1e-4)
 
 
 class Pushed(Files):
@@ -288,6 +403,17 @@ class Bonus(tasks.TaskEnv):
         return super().is_over() | (self.world.time > 0.11)
 
 
+class Watched(tasks.TaskEnv):
+    """Observes more than its file says."""
+
+    @property
+    def observation_spec(self):
+        return (*super().observation_spec, Entry("energy", "J"))
+
+    def observe(self):
+        return np.concatenate([super().observe(), self.values("energy")], axis=1)
+
+
 class Classes(Files):
     def test_a_subclass_adds_what_a_file_cannot_say(self):
         envs = Bonus(tasks.load("balance"), num_envs=2)
@@ -296,8 +422,38 @@ class Classes(Files):
             _, rewards, terminated, *_ = envs.step(np.array([[1.0], [-1.0]]))
         np.testing.assert_array_equal(rewards, [11, 1])
         self.assertEqual(terminated.tolist(), [True, True])
-        with self.assertRaises(tenon.NotFoundError):
-            envs.values("energy")
+        with self.assertRaisesRegex(tenon.NotFoundError, "did you mean 'energy'"):
+            envs.values("enery")
+
+    def test_a_subclass_measures_what_the_file_does_not_name(self):
+        envs = tasks.TaskEnv("balance", 2)
+        envs.reset(seed=0)
+        envs.step(np.zeros((2, 1)))
+        np.testing.assert_array_equal(envs.values("energy")[:, 0], envs.world.energy.sum(axis=1))
+        pole = envs.world.body_names.index("/CartPole/pole")
+        np.testing.assert_array_equal(envs.values("position@pole"),
+                                      envs.world.body_poses[:, pole, :3])
+        with self.assertRaisesRegex(tenon.InvalidError, "outputs"):
+            envs.values("contactForce@pole")
+
+    def test_a_subclass_observes_more(self):
+        envs = Watched("balance", 3, autoreset_mode="SameStep")
+        self.assertEqual(envs.single_observation_space.shape, (5,))
+        first, _ = envs.reset(seed=0)
+        np.testing.assert_array_equal(first[:, 4], envs.values("energy")[:, 0])
+        observations = envs.step(np.zeros((3, 1)))[0]
+        self.assertTrue(envs.observation_space.contains(observations))
+
+    def test_what_a_subclass_gives_has_its_shape(self):
+        for name, value, told in (
+                ("observe", np.zeros((2, 3)), r"observe\(\).*\(2, 3\).*4 numbers for each of 2"),
+                ("reward", np.zeros((2, 1)), r"reward\(\).*\(2, 1\); expected \(2,\)"),
+                ("is_over", np.zeros(3, dtype=bool), r"is_over\(\).*\(3,\); expected \(2,\)")):
+            envs = tasks.TaskEnv("balance", 2)
+            envs.reset(seed=0)
+            setattr(envs, name, lambda value=value: value)
+            with self.assertRaisesRegex(ValueError, told):
+                envs.step(np.zeros((2, 1)))
 
     def test_terms_are_their_formulas(self):
         text = f'asset = "{tasks.EXAMPLES / "cart_pole.usda"}"\n[[action]]\njoints = "slide"\n'

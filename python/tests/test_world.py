@@ -300,6 +300,29 @@ def Xform "W"
             tenon.World(support.HAND, vary=["nothing"])
 
 
+class Bodies(support.FilesTestCase):
+    def test_a_body_that_is_put_where_it_is_moves_on_as_it_was(self):
+        # Engines begin the contacts of a body that is set anew.
+        for engine in ("mujoco", "physx", "jolt"):
+            with self.subTest(engine):
+                left, put = (tenon.World(support.GRASP, engine, threads=1) for _ in range(2))
+                can = left.body_names.index("/World/can")
+                for world in (left, put):
+                    world.drive_targets = 0.4
+                    world.step(40)
+                put.set_body(can, put.body_poses[:, can], put.body_velocities[:, can])
+                for world in (left, put):
+                    world.step(40)
+                np.testing.assert_array_equal(put.body_poses, left.body_poses)
+
+    def test_what_varies_is_named_by_the_last_element_of_its_path(self):
+        by_path, by_name = (
+            tenon.World(support.GRASP, "mujoco", 2, vary=[f"bodyPosition@{can}=0..0.01"], threads=1)
+            for can in ("/World/can", "can"))
+        np.testing.assert_array_equal(by_path.body_poses, by_name.body_poses)
+        self.assertEqual(by_name.variations, ["bodyPosition@can"])
+
+
 class Engines(support.FilesTestCase):
     def test_every_engine_of_the_wheel_runs_the_grasp(self):
         available = [row["name"] for row in tenon.engines() if row["available"]]

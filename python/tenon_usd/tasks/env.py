@@ -10,16 +10,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .._arrays import counted
 from .._lists import no_such
 from .._toml import Fault
 from .._tenon import Stage as OpenedStage
-from ..actuators import fitting
 from ..errors import NotFoundError
 from ..gym import Array, AssetVectorEnv, Mask, SingleEnv
 from ..observations import Entry, Observer, outputs_of
 from ..options import PathLike
 from .pushes import Pushes, drawn
-from .task import Reward, Task, TaskError, Termination, load
+from .starts import Starts
+from .task import Observation, Reward, Task, TaskError, Termination, load
 
 Float = npt.NDArray[np.float64]
 
@@ -28,7 +29,8 @@ class TaskEnv(AssetVectorEnv):
     """Environments of a task: a Task, or the file that describes it (tenon_usd.tasks.load).
 
     Subclasses override what AssetVectorEnv has for that: reward(), is_over(), draw(), started(),
-    observe(), told(); values(NAME) has numbers by the names of the file, `goals` what was drawn.
+    observe() with observation_spec, told(); values(NAME) has numbers of the world by name, `goals`
+    what was drawn, which draw() may change.
     `asset` and `options` (those of AssetVectorEnv) go before what the file says. infos have each
     term of the reward, "reward.NAME", and each reason of an end, "over.NAME". Raises TaskError
     where a row of the file names what the asset does not have, with its line.
@@ -38,10 +40,10 @@ class TaskEnv(AssetVectorEnv):
                  asset: PathLike | OpenedStage | None = None, **options: Any) -> None:
         self.task: Task = task if isinstance(task, Task) else load(task)
         read = self.task
+        num_envs = counted("num_envs", num_envs)
         self.goals: dict[str, Float] = {
             goal.name: np.zeros((num_envs, len(goal.values))) for goal in read.goals}
         """What each environment drew for each goal, shape (envs, numbers)."""
-        self._starts = [np.zeros((num_envs, 0)) for _ in read.starts]
         self.actions: Float = np.zeros((num_envs, 0))
         """The last actions, shape (envs, actions), as step() was given them."""
         self._changes = self.actions
@@ -59,11 +61,21 @@ class TaskEnv(AssetVectorEnv):
 
     def _names(self) -> list[str]:
         """What the rows read of the world."""
-        rows: list[str] = [row.of for row in self.task.observations]
-        measured: list[Reward | Termination] = [*self.task.rewards, *self.task.terminations]
-        for row in measured:
-            rows += [*row.of, *([row.to] if isinstance(row.to, str) else [])]
+        rows = [name for *_, names in self._rows() for name in names]
         return [name for name in dict.fromkeys(rows) if not self._is_own(name)]
+
+    def _rows(self) -> list[tuple[str, Observation | Reward | Termination, list[str]]]:
+        """What measures: its place in the file, and the names that it mentions."""
+        kinds: list[tuple[str, Sequence[Observation | Reward | Termination]]] = [
+            ("observation", self.task.observations), ("reward", self.task.rewards),
+            ("termination", self.task.terminations)]
+        found = []
+        for kind, rows in kinds:
+            for i, row in enumerate(rows, 1):
+                of = [row.of] if isinstance(row.of, str) else list(row.of)
+                to = [row.to] if isinstance(row.to, str) else []
+                found.append((f"{kind} {i}", row, of + to))
+        return found
 
     def _is_own(self, name: str) -> bool:
         return name == "action" or name.startswith("goal.")
@@ -77,15 +89,8 @@ class TaskEnv(AssetVectorEnv):
     def _find_names(self) -> None:
         """Where each name of the file is read. Raises TaskError."""
         task, faults = self.task, self._wrong_names()
-        self._starting: list[tuple[bool, list[int]]] = []
-        for i, start in enumerate(task.starts, 1):
-            try:
-                kind, _, path = start.of.partition("@")
-                joints = self.world.joint_names
-                columns = fitting(path, joints) if path else list(range(len(joints)))
-                self._starting.append((kind == "jointVelocity", columns))
-            except (NotFoundError, ValueError) as error:
-                faults.append(Fault(f"reset {i}", start.line, str(error)))
+        self.starts: Starts = Starts(self.world, task.starts)
+        faults += self.starts.faults
         try:
             self.pushes: Pushes = Pushes(self.world, task.pushes)
         except (NotFoundError, ValueError) as error:
@@ -96,22 +101,16 @@ class TaskEnv(AssetVectorEnv):
         self._signals = Observer(self.world, names)
         ends = np.cumsum([0, *self._signals.counts])
         self._parts = {name: slice(ends[i], ends[i + 1]) for i, name in enumerate(names)}
+        self._others: dict[str, Observer] = {}
         self._read_now()
-        self._entries = tuple(entry for row in task.observations for entry in self._of(row.of))
+        self._entries = tuple(entry for row in task.observations for entry in self._seen(row))
         self._scales = np.concatenate([np.full(self.values(row.of).shape[1], row.scale)
                                        for row in task.observations] or [np.zeros(0)])
         self._check_sizes()
 
     def _wrong_names(self) -> list[Fault]:
         """Names of numbers that there are not, with their rows."""
-        lines = [(row.of, f"observation {i}", row.line)
-                 for i, row in enumerate(self.task.observations, 1)]
-        rows: list[tuple[str, Sequence[Reward | Termination]]] = [
-            ("reward", self.task.rewards), ("termination", self.task.terminations)]
-        for kind, each in rows:
-            for i, row in enumerate(each, 1):
-                mentioned = [*row.of, *([row.to] if isinstance(row.to, str) else [])]
-                lines += [(name, f"{kind} {i}", row.line) for name in mentioned]
+        lines = [(name, place, row.line) for place, row, names in self._rows() for name in names]
         faults: list[Fault] = []
         for name, place, line in lines:
             try:
@@ -126,15 +125,12 @@ class TaskEnv(AssetVectorEnv):
     def _check_sizes(self) -> None:
         """Distances are between as many numbers. Raises TaskError."""
         faults = []
-        rows: list[tuple[str, Sequence[Reward | Termination]]] = [
-            ("reward", self.task.rewards), ("termination", self.task.terminations)]
-        for kind, each in rows:
-            for i, row in enumerate(each, 1):
-                size = sum(self.values(name).shape[1] for name in row.of)
-                to = self.values(row.to).shape[1] if isinstance(row.to, str) else len(row.to)
-                if to not in (0, 1, size):
-                    faults.append(Fault(f"{kind} {i}", row.line, f"`of` has {size} numbers, `to` "
-                                        f"has {to}"))
+        for place, row, _ in self._rows():
+            of = [row.of] if isinstance(row.of, str) else row.of
+            size = sum(self.values(name).shape[1] for name in of)
+            to = self.values(row.to).shape[1] if isinstance(row.to, str) else len(row.to)
+            if to not in (0, 1, size):
+                faults.append(Fault(place, row.line, f"`of` has {size} numbers, `to` has {to}"))
         if faults:
             raise TaskError(self.task.source, faults)
 
@@ -151,6 +147,16 @@ class TaskEnv(AssetVectorEnv):
             return [Entry(f"{name}.{i}") for i in range(self._goal(name).shape[1])]
         return list(self._signals.entries[self._parts[name]])
 
+    def _seen(self, row: Observation) -> list[Entry]:
+        """The numbers of a row; without ranges where they are seen from elsewhere."""
+        entries, to = self._of(row.of), row.to
+        if isinstance(to, str):
+            return [Entry(f"{entry.name} - {to}", entry.unit) for entry in entries]
+        if not to:
+            return entries
+        return [Entry(f"{entry.name} - {to[i % len(to)]:g}", entry.unit)
+                for i, entry in enumerate(entries)]
+
     @property
     def observation_spec(self) -> tuple[Entry, ...]:
         """What each number of an observation is before its `scale`."""
@@ -159,17 +165,21 @@ class TaskEnv(AssetVectorEnv):
     # ---- numbers by name
 
     def values(self, name: str) -> Float:
-        """The numbers that the file calls `name`, after the last step, shape (envs, numbers).
+        """The numbers that are called `name`, after the last step, shape (envs, numbers).
 
-        A name of tenon_usd.observations that the file mentions, "goal.NAME", or "action".
+        A name of tenon_usd.observations, whether the file mentions it or not, "goal.NAME", or
+        "action". Raises NotFoundError; InvalidError for driveEffort, contactForce and sensor where
+        neither the file nor `outputs` asks for what they need.
         """
         if name == "action":
             return self.actions
         if name.startswith("goal."):
             return self._goal(name)
-        if name not in self._parts:
-            raise NotFoundError(no_such(name, list(self._parts)) + "; the file has to name it")
-        return self._now[:, self._parts[name]]
+        if name in self._parts:
+            return self._now[:, self._parts[name]]
+        if name not in self._others:
+            self._others[name] = Observer(self.world, [name])
+        return self._others[name].read()
 
     def _read_now(self) -> None:
         self._now = self._signals.read()
@@ -242,7 +252,7 @@ class TaskEnv(AssetVectorEnv):
     def observe(self) -> Array:
         """Observations of all environments with their scales, without noise."""
         self._read_now()
-        numbers = [self.values(row.of) for row in self.task.observations]
+        numbers = [self._offset((row.of,), row.to) for row in self.task.observations]
         whole = np.concatenate(numbers or [np.zeros((self.num_envs, 0))], axis=1)
         return np.asarray(whole * self._scales)
 
@@ -274,21 +284,13 @@ class TaskEnv(AssetVectorEnv):
         """Goals, starts and the first pushes of one environment."""
         for goal in self.task.goals:
             self.goals[goal.name][env] = [drawn(value, random) for value in goal.values]
-        for i, (start, (_, columns)) in enumerate(zip(self.task.starts, self._starting)):
-            if self._starts[i].shape[1] != len(columns):
-                self._starts[i] = np.zeros((self.num_envs, len(columns)))
-            self._starts[i][env] = [drawn(start.value, random) for _ in columns]
+        self.starts.draw(env, random)
         self.pushes.draw(env, random)
 
     def started(self, envs: Mask) -> None:
-        """Joints where they start; actions as if there was none before."""
+        """Joints and bodies where they start; actions as if there was none before."""
         if self.task.starts:
-            positions, velocities = self.world.joints()
-            for start, (of_velocity, columns) in zip(self._starts, self._starting):
-                to = velocities if of_velocity else positions
-                for i, column in enumerate(columns):
-                    to[envs, column] = start[envs, i]
-            self.world.set_joints(positions, velocities)
+            self.starts.started(envs)
         self.pushes.started(envs)
         self.actions = np.where(envs[:, None], 0.0, self.actions)
         self._look()

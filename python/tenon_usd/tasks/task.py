@@ -11,9 +11,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from .._lists import no_such
 from .._toml import Fault, FileError, Reader, is_number, read_toml, rows_of
-from ..actuators import COMMANDS, Actuator, DCMotor, Delay, Number, PD, Saturation, Stage
+from ..actuators import COMMANDS, Actuator, DCMotor, Delay, Number, PD, PID, Saturation, Stage
 from ..draws import Choice, Distribution, LogUniform, Normal, Uniform
+from ..errors import MissingFileError
 
 #: The folder of the tasks that the package has.
 EXAMPLES = Path(__file__).parent
@@ -21,6 +23,8 @@ MAX_BYTES = 1 << 20
 MAX_ROWS = 1000
 #: What a reward is made of (docs/tasks.md has the formulas).
 TERMS = ("constant", "value", "distance", "square", "near", "within", "action", "action_change")
+#: What a row [[reset]] puts: joints, all of them without a name, then bodies.
+STARTS = ("jointPosition", "jointVelocity", "position.x", "position.y", "position.z", "yaw")
 DRAWS: dict[str, Callable[[Any], Distribution]] = {
     "uniform": lambda values: Uniform(*map(float, values)),
     "log_uniform": lambda values: LogUniform(*map(float, values)),
@@ -28,7 +32,7 @@ DRAWS: dict[str, Callable[[Any], Distribution]] = {
     "choice": lambda values: Choice(tuple(map(float, values))),
 }
 STAGES: dict[str, type[Any]] = {
-    "delay": Delay, "pd": PD, "dc_motor": DCMotor, "saturation": Saturation}
+    "delay": Delay, "pd": PD, "pid": PID, "dc_motor": DCMotor, "saturation": Saturation}
 
 
 class TaskError(FileError):
@@ -38,11 +42,12 @@ class TaskError(FileError):
 @dataclasses.dataclass(frozen=True)
 class Observation:
     """One row [[observation]]: the numbers that `of` names (tenon_usd.observations, "goal.NAME",
-    "action"), times `scale`, with `noise` in the unit that comes of it."""
+    "action"), seen from `to`, times `scale`, with `noise` in the unit that comes of it."""
 
     of: str
     scale: float = 1.0
     noise: Distribution | None = None
+    to: str | tuple[float, ...] = ()
     line: int = dataclasses.field(default=0, compare=False)
 
 
@@ -86,8 +91,9 @@ class Goal:
 
 @dataclasses.dataclass(frozen=True)
 class Start:
-    """One row [[reset]]: "jointPosition@JOINT" or "jointVelocity@JOINT" at the start of an episode,
-    in place of the asset's [rad, m, rad/s, m/s]."""
+    """One row [[reset]]: "jointPosition@JOINT", "jointVelocity@JOINT" [rad, m, rad/s, m/s] or
+    "position.x@BODY" [m] of a free body at the start of an episode, in place of the asset's;
+    "yaw@BODY" [rad] turns it about z of the world."""
 
     of: str
     value: Number
@@ -166,14 +172,15 @@ class _TaskReader(Reader):
                    "{uniform = [0, 1]}", key)
         return 0.0
 
-    def names(self, table: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    def names(self, table: Mapping[str, Any], key: str,
+              expected: str = 'a name such as "position@/World/can"') -> tuple[str, ...]:
         """A text or a list of them."""
         value = table.get(key)
         listed = [value] if isinstance(value, str) else value
         if not isinstance(listed, list) or not listed or not all(
-                isinstance(each, str) and each for each in listed):
-            self.fault(f"{key} is {value!r}; expected a name such as \"position@/World/can\", or a "
-                       "list of names", key)
+                isinstance(each, str) and each.isprintable() and each for each in listed):
+            said = f"`{key}` is missing" if value is None else f"{key} is {value!r}"
+            self.fault(f"{said}; expected {expected}, or a list of them", key)
             return ()
         return tuple(listed)
 
@@ -196,7 +203,7 @@ class _TaskReader(Reader):
 
 
 def _observation(reader: _TaskReader, row: Mapping[str, Any]) -> Observation | None:
-    reader.unknown(row, ("of", "scale", "noise"))
+    reader.unknown(row, ("of", "to", "scale", "noise"))
     of = reader.text(row, "of")
     if of is None:
         reader.fault("`of` says what is observed, such as \"jointPosition\"")
@@ -209,7 +216,8 @@ def _observation(reader: _TaskReader, row: Mapping[str, Any]) -> Observation | N
     else:
         reader.fault(f"noise is {table!r}; expected a table such as {{normal = [0, 0.01]}}",
                      "noise")
-    return Observation(of, reader.number(row, "scale", 1.0, -1e300, 1e300), noise, reader.line)
+    return Observation(of, reader.number(row, "scale", 1.0, -1e300, 1e300), noise,
+                       reader.place(row), reader.line)
 
 
 def _stage(reader: _TaskReader, table: Any) -> Stage | None:
@@ -236,14 +244,11 @@ def _stage(reader: _TaskReader, table: Any) -> Stage | None:
     return made
 
 
-def _action(reader: _TaskReader, row: Mapping[str, Any]) -> Actuator | None:
+def _action(reader: _TaskReader, row: Mapping[str, Any]) -> list[Actuator] | None:
+    """One actuator for each name of `joints`."""
     reader.unknown(row, ("joints", "command", "low", "high", "stages"))
-    joints = reader.text(row, "joints")
-    if joints is None:
-        reader.fault("`joints` says what is moved: a path, its last element, or a regular "
-                     "expression")
-        return None
-    command = reader.text(row, "command", "position")
+    joints = reader.names(row, "joints", "a path, its last element or a regular expression")
+    command = reader.text(row, "command", "position") or ""
     listed = row.get("stages", [])
     if not isinstance(listed, list) or len(listed) > MAX_ROWS:
         reader.fault(f"stages is {listed!r}; expected a list of tables", "stages")
@@ -252,9 +257,10 @@ def _action(reader: _TaskReader, row: Mapping[str, Any]) -> Actuator | None:
     if command not in COMMANDS:
         reader.fault(f"command is {command!r}; there are {', '.join(COMMANDS)}", "command")
         return None
+    low, high = reader.maybe(row, "low"), reader.maybe(row, "high")
     try:
-        return Actuator(joints, *[each for each in stages if each is not None], command=command,
-                        low=reader.maybe(row, "low"), high=reader.maybe(row, "high"))
+        return [Actuator(each, *[stage for stage in stages if stage is not None], command=command,
+                         low=low, high=high) for each in joints]
     except ValueError as error:
         # Where a stage is wrong, what the others lack is no fault of its own.
         if None not in stages:
@@ -303,8 +309,10 @@ def _goal(reader: _TaskReader, row: Mapping[str, Any]) -> Goal | None:
 def _start(reader: _TaskReader, row: Mapping[str, Any]) -> Start | None:
     reader.unknown(row, ("of", "value", *DRAWS))
     of = reader.text(row, "of")
-    if of is None or of.partition("@")[0] not in ("jointPosition", "jointVelocity"):
-        reader.fault(f"`of` is {of!r}; expected jointPosition@JOINT or jointVelocity@JOINT", "of")
+    kind, _, body = (of or "").partition("@")
+    if of is None or kind not in STARTS or not (body or kind in STARTS[:2]):
+        reader.fault(f"`of` is {of!r}; expected jointPosition@JOINT, jointVelocity@JOINT, "
+                     "position.x@BODY (y and z likewise) or yaw@BODY", "of")
         return None
     if "value" in row:
         return Start(of, reader.number(row, "value", 0.0, -1e300, 1e300), reader.line)
@@ -374,7 +382,8 @@ def task_from_table(table: Mapping[str, Any], folder: str, path: str = "task",
     task = Task(
         os.path.splitext(os.path.basename(path))[0], asset or "", folder, engine, physics, step,
         frame, episode, _each(reader, table, "observation", _observation),
-        _each(reader, table, "action", _action), _each(reader, table, "reward", _reward),
+        tuple(one for row in _each(reader, table, "action", _action) for one in row),
+        _each(reader, table, "reward", _reward),
         _each(reader, table, "termination", _termination), _draws(reader, table),
         _each(reader, table, "reset", _start), _each(reader, table, "goal", _goal),
         _each(reader, table, "push", _push), path)
@@ -393,10 +402,13 @@ def task_from_table(table: Mapping[str, Any], folder: str, path: str = "task",
 def load(path: str | os.PathLike[str]) -> Task:
     """Reads a file of TOML, or one that the package has by its name: "balance", "reach".
 
-    Errors: OSError; TaskError, with the line of each thing that is wrong.
+    Errors: OSError, for other names as well; TaskError, with the line of each thing that is wrong.
     """
     name = os.fspath(path)
     if os.path.basename(name) == name and not name.endswith(".toml"):
+        own = sorted(file.stem for file in EXAMPLES.glob("*.toml"))
+        if name not in own:
+            raise MissingFileError(f"task: {no_such(name, own)}; the name of a file ends in .toml")
         name = str(EXAMPLES / f"{name}.toml")
     text, table = read_toml(name, MAX_BYTES, TaskError)
     return task_from_table(table, os.path.dirname(os.path.abspath(name)), name, text)

@@ -64,6 +64,10 @@ std::uint64_t mixed(std::uint64_t number) {
 
 // ---- parameters
 
+bool is_meant(const Variation& variation, const Path& object) {
+  return scene::is_meant(variation.object, object);
+}
+
 struct ParameterValue {
   engines::ParameterKey key;
   double now = 0;
@@ -72,8 +76,8 @@ struct ParameterValue {
 void add_body_values(const Variation& variation, const scene::PhysicsScene& scene,
                      std::vector<ParameterValue>& values) {
   for (Index i = 0; i < scene.bodies.size(); ++i) {
-    const bool any = variation.object.empty() && !scene.bodies[i].kinematic;
-    if (any || scene.bodies[i].path == variation.object) {
+    const bool skipped = variation.object.empty() && scene.bodies[i].kinematic;
+    if (!skipped && is_meant(variation, scene.bodies[i].path)) {
       values.push_back({{Parameter::BodyMass, i}, scene.bodies[i].mass});
     }
   }
@@ -83,7 +87,7 @@ void add_friction_values(const Variation& variation, const scene::PhysicsScene& 
                          std::vector<ParameterValue>& values) {
   for (Index i = 0; i < scene.colliders.size(); ++i) {
     const scene::Collider& collider = scene.colliders[i];
-    if (variation.object.empty() || collider.path == variation.object) {
+    if (is_meant(variation, collider.path)) {
       const scene::Material& material =
           collider.material ? scene.materials[*collider.material] : scene.unbound;
       values.push_back({{Parameter::ColliderFriction, i}, material.dynamic_friction});
@@ -118,7 +122,7 @@ void add_joint_values(const Variation& variation, const scene::PhysicsScene& sce
   };
   for (Index j = 0; j < scene.joints.size(); ++j) {
     const scene::Joint& joint = scene.joints[j];
-    if (!variation.object.empty() && joint.path != variation.object) {
+    if (!is_meant(variation, joint.path)) {
       continue;
     }
     if (!is_of_drives(variation.parameter)) {
@@ -173,8 +177,7 @@ Result<void> vary_joints(const Variation& variation, double offset,
   bool any = false;
   for (Index j = 0; j < scene.joints.size(); ++j) {
     engines::JointState state = world.joint_state(j);
-    const bool named = variation.object.empty() || scene.joints[j].path == variation.object;
-    if (!named || state.position.empty()) {
+    if (!is_meant(variation, scene.joints[j].path) || state.position.empty()) {
       continue;
     }
     for (double& position : state.position) {
@@ -191,8 +194,8 @@ Result<void> vary_bodies(const Variation& variation, const std::vector<double>& 
                          const scene::PhysicsScene& scene, engines::World& world) {
   bool any = false;
   for (Index i = 0; i < scene.bodies.size(); ++i) {
-    const bool named = scene.bodies[i].path == variation.object;
-    if (scene.bodies[i].kinematic || (!variation.object.empty() && !named)) {
+    const bool named = !variation.object.empty();
+    if (scene.bodies[i].kinematic || !is_meant(variation, scene.bodies[i].path)) {
       continue;
     }
     engines::BodyState state = world.body_state(i);

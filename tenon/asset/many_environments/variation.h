@@ -30,15 +30,15 @@ struct Variation {
   engines::Parameter parameter = engines::Parameter::BodyMass;
   std::string list;   ///< of Field: "colliders"
   std::string field;  ///< of Field: "shape.radius"
-  Path object;        ///< empty: all that have it
+  Path object;        ///< or its last element alone; empty: all that have it
   double low = 1;
   double high = 1;
 };
 
-/// "NAME=LOW..HIGH" or "NAME@/path=LOW..HIGH". NAME is a parameter ("bodyMass", see
-/// engines::parameter_name), "gravity", "jointPosition", "bodyPosition", or a field of the scene as
-/// its JSON has it ("colliders.shape.radius", "joints.upper"). Errors: Invalid (usage.value), with
-/// what there is.
+/// "NAME=LOW..HIGH" or "NAME@/path=LOW..HIGH", where the last element of a path is enough. NAME is
+/// a parameter ("bodyMass", see engines::parameter_name), "gravity", "jointPosition",
+/// "bodyPosition", or a field of the scene as its JSON has it ("colliders.shape.radius",
+/// "joints.upper"). Errors: Invalid (usage.value), with what there is.
 Result<Variation> read_variation(const std::string& text);
 
 /// A number of [low, high] that depends on nothing but these.

@@ -223,6 +223,9 @@ void report_end(const SimulateAssetOptions& options, const SimulatedAsset& asset
                 Diagnostics& diagnostics) {
   const bake::Run& run = asset.run;
   watches::report_faults(*asset.scene, run.faults, run.events, diagnostics);
+  if (asset.commands && !run.failure && !run.interrupted) {
+    bake::tell_rows_outside(*asset.commands, run.time, diagnostics);
+  }
   if (run.failure) {
     diagnostics.add(run.failure->diagnostic());
   } else if (options.until_rest && !run.rest_since && !run.interrupted) {

@@ -56,6 +56,11 @@ bool scale_in(std::string_view name, double factor, DataRef object) {
 
 }  // namespace
 
+bool is_meant(const Path& meant, const Path& object) {
+  return meant.empty() || object == meant ||
+         (!meant.is_absolute() && object.name().view() == meant.str());
+}
+
 std::size_t scale_field(std::string_view list, std::string_view field, Path object, double factor,
                         PhysicsScene& scene) {
   std::size_t count = 0;
@@ -67,7 +72,7 @@ std::size_t scale_field(std::string_view list, std::string_view field, Path obje
   }
   const DataRef objects = lists.member(*named);
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (object.empty() || *path_of(objects[i]) == object) {
+    if (is_meant(object, *path_of(objects[i]))) {
       count += scale_in(field, factor, objects[i]) ? 1 : 0;
     }
   }

@@ -10,8 +10,11 @@
 
 namespace tenon::scene {
 
+/// Whether `meant` is an object: its path, the last element of it, or, where it is empty, any.
+bool is_meant(const Path& meant, const Path& object);
+
 /// Multiplies a number of the objects of a list, found by the names of the tables: "colliders",
-/// "shape.radius"; all components of vectors and matrices. `object`: one alone; empty: all.
+/// "shape.radius"; all components of vectors and matrices. `object`: which (is_meant()).
 /// Unlimited stays unlimited. Gives how many objects have it.
 std::size_t scale_field(std::string_view list, std::string_view field, Path object, double factor,
                         PhysicsScene& scene);
