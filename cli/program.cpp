@@ -30,6 +30,7 @@ constexpr std::array kVerbs{
     Verb{"add", add_add, kEdit},
     Verb{"bake", add_bake, kShow},
     Verb{"bench", add_bench, kSimulate},
+    Verb{"benchmark", add_benchmark, kSimulate},
     Verb{"cat", add_cat, kLook},
     Verb{"check", add_check, kCheck},
     Verb{"colliders", add_colliders, kLook},

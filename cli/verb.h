@@ -83,6 +83,7 @@ using AddVerb = void(const Command& parent, const Globals& globals, Chosen& chos
 AddVerb add_add;
 AddVerb add_bake;
 AddVerb add_bench;
+AddVerb add_benchmark;
 AddVerb add_cat;
 AddVerb add_check;
 AddVerb add_colliders;

@@ -164,7 +164,8 @@ AUTHORING = {
 # What else there is; no row for each option, since nothing is authored.
 OTHERS = {
     "bake": "tenon_usd.recording takes the motion of a World",
-    "bench": "a World counts what it steps", "compare": "compare", "completion": "of a shell",
+    "bench": "a World counts what it steps",
+    "benchmark": "verdicts on whole assets are the command's", "compare": "compare", "completion": "of a shell",
     "diff": "diff", "doctor": "doctor", "dump": "Stage.prims and Prim read the same",
     "dump-index": "Prim.arcs and Stage.where read the same",
     "excite": "tenon_usd.identify has it", "explain": "explain", "help": "help() of Python",

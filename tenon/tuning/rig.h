@@ -11,7 +11,7 @@
 
 #include "tenon/tuning/drive_tests.h"
 
-/// Internal to the tests of drives.
+/// Internal to the tests of drives, those of `tenon benchmark` too.
 namespace tenon::tuning {
 
 /// What a drive has in place of what its scene says.
@@ -34,6 +34,7 @@ class Rig {
   /// bound_speeds() says.
   Result<bool> step();
 
+  engines::Simulation& simulation() { return *simulation_; }
   double time_step() const { return simulation_->time_step(); }
   double home(std::size_t row) const { return homes_[row]; }
   double max_force(std::size_t row) const;

@@ -35,6 +35,7 @@ PRINTED_BY = {
     "cli/verbs/author_verbs.cpp": (),
     "tenon/asset/authoring": ("add",),
     "tenon/asset/authoring/remove_edits.cpp": ("remove",),
+    "tenon/asset/benchmarking": ("benchmark",),
     "tenon/asset/checking": ("check",),
     "tenon/asset/colliders": ("colliders",),
     "tenon/asset/comparing_engines": ("compare",),

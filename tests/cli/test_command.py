@@ -379,7 +379,7 @@ class Command(unittest.TestCase):
                 "convert": ["out.xml"], "set": ["/World/ball.radius=2", "--dry-run"],
                 "add": ["/World/x=cube", "--dry-run"], "remove": ["/World/mesh", "--dry-run"],
                 "rename": ["/World/mesh", "m", "--dry-run"], "variant": [],
-                "bench": ["--duration", "0.01"],
+                "bench": ["--duration", "0.01"], "benchmark": ["--tests", "ground_drop"],
                 "record": ["-o", "r.png"],
                 "report": ["-o", "r.html", "--duration", "0.01"], "view": ["--for", "0"],
                 "compare": ["--engines", "mujoco,mujoco", "--duration", "0.01"]}

@@ -57,7 +57,8 @@ FOREIGN = {
 
 # Verbs that read an asset, with what they want beside it; every verb is in one of the two.
 READS = {
-    "add": ["/World/box=cube"], "bake": ["-o", "baked.usda"], "bench": [], "cat": [], "check": [],
+    "add": ["/World/box=cube"], "bake": ["-o", "baked.usda"], "bench": [],
+    "benchmark": [], "cat": [], "check": [],
     "colliders": [], "compare": [], "diff": ["{file}"], "dump": [], "drives": [], "dump-index": [],
     "explain": ["/World"], "inertia": [], "info": [], "pairs": [], "physics": [],
     "pose": [],

@@ -48,6 +48,8 @@ WORDS = {
     "add": ["main.usda", "/World/new=sphere"],
     "bake": ["main.usda", "-o", "out.usda", *RUN],
     "bench": ["main.usda", "--envs", "3", "--threads", "1", "--json", *RUN],
+    "benchmark": ["main.usda", "--tests", "velocity_limit,drive_gain_validation", "--json",
+                  "--engine", "mujoco"],
     "cat": ["main.usda"],
     "check": ["main.usda"],
     "colliders": ["main.usda"],

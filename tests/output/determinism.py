@@ -28,6 +28,7 @@ RUNS = {
     "bake": [["bake", "FILE", "-o", "out.usda", "--duration", "0.05"],
              ["bake", "FILE", "-o", "out.glb", "--duration", "0.05"]],
     "bench": "prints times",
+    "benchmark": [["benchmark", "FILE", "--json", "--tests", "ground_drop"]],
     "cat": [["cat", "FILE"], ["cat", "FILE", "-o", "out.usdc"],
             ["cat", "FILE", "--flatten", "-o", "out.usda"], ["cat", "FILE", "-o", "out.usdz"]],
     "check": [["check", "FILE", "--json"], ["check", "FILE", "-v"],

@@ -170,6 +170,7 @@ PRINTING = {
     "report": ["report", "scene.usda", "-o", "made.html", "--duration", "0.1", "--json"],
     "set": ["set", "scene.usda", "/World/box.size=1", "--dry-run"],
     "bench": ["bench", "scene.usda", "--envs", "2", "--duration", "0.1"],
+    "benchmark": ["benchmark", "scene.usda", "--tests", "ground_drop"],
     "compare": ["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1"],
     "sim": ["sim", "scene.usda", "--duration", "0.1"],
     "strip": ["strip", "base.usda", "-o", "-"],
@@ -226,6 +227,7 @@ WRITING = {
     "report": [["report", "scene.usda", "--duration", "0.1", "-o", "OUT.html"]],
     "set": [],  # in place alone
     "bench": [],
+    "benchmark": [],
     "compare": [["compare", "scene.usda", "--engines", "mujoco,mujoco", "--duration", "0.1", "-o",
                  f"OUT.{ending}"] for ending in ("html", "csv", "json")],
     "sim": [["sim", "scene.usda", "--duration", "0.1", "-o", "OUT.csv"],

@@ -29,6 +29,7 @@ ROWS = {
     "add": ["/A/new=scope", "--dry-run"],
     "bake": ["-o", "OUT/b.usda", "--duration", "0.01"],
     "bench": ["--duration", "0.01"],
+    "benchmark": ["--tests", "ground_drop"],
     "cat": ["--flatten"],
     "check": [],
     "colliders": [],

@@ -7,12 +7,14 @@ second time, and breaks no rule on structure that the source does not break.
 
     sweep.py ROOT TENON [--all]
 
-A fixed sample, or with --all every file, two at a time. Two answers of the program besides a clean
-one are right, and judged as such:
+A fixed sample, or with --all every file, two at a time. Three answers of the program besides a
+clean one are right, and judged as such:
 - A file that it leaves out of a result with an error `read.*` (docs/reading.md) may be missing
   there, at the very place that the error names, and nothing else may be.
 - A source that composes beyond a limit of docs/limits.md is refused by that limit's name, with
   exit 2 and no result, where `info` says the same of the source.
+- A mesh whose collider takes in the meshes below it, which no engine does, is refused by its name,
+  without a result, where `check` warns of the same prim (collider.submeshes).
 What misses is named in sweep_misses.txt, which may only shrink; without such a file nothing does.
 """
 
@@ -46,7 +48,7 @@ LIMIT = re.compile(r"\((k[A-Z]\w+)\)")  # as messages name one
 NAMED_FILE = re.compile(r"@([^@]*)@|$")
 # A line of the interface's record of the files that it was written with.
 RECORDED = re.compile(rb'^ +string "[^"]+" = "[0-9a-f]{16}"\n', re.M)
-HOLDS, NOTHING, REFUSED = "holds", "has no structure", "is refused by a limit"
+HOLDS, NOTHING, REFUSED = "holds", "has no structure", "is refused by name"
 
 
 class Miss(Exception):
@@ -73,6 +75,13 @@ def limits_of(report):
     return {name for text in messages for name in LIMIT.findall(text) if name in KNOWN_LIMITS}
 
 
+def united_colliders(report, severity, rule):
+    """-> prims that it says to be colliders together with the meshes below them."""
+    return {d["prim"] for d in report["diagnostics"]
+            if (d["severity"], d["rule"]) == (severity, rule) and
+            "below this one are part of its collider" in d["message"]}
+
+
 def left_out(report):
     """-> [(place, file)] of what it says that it does not read."""
     return [((d["prim"], d["property"]), NAMED_FILE.search(d["message"])[1])
@@ -87,6 +96,10 @@ def refusal(asset, made, folder):
     limits = limits_of(made)
     if limits and made["exit"] == 2 and not folder.exists():
         if limits & limits_of(answer("info", asset)):
+            return REFUSED
+    united = united_colliders(made, "error", "structure.differs")
+    if united and made["exit"] == 2 and not folder.exists():
+        if united <= united_colliders(answer("check", asset), "warning", "collider.submeshes"):
             return REFUSED
     raise Miss(f"refused: {made['diagnostics'][-1:]}")
 
@@ -184,10 +197,10 @@ def main():
     names = {kind: [name for name, (outcome, _) in verdicts.items() if outcome == kind]
              for kind in (HOLDS, NOTHING, REFUSED)}
     for name in names[REFUSED]:
-        print(f"refused by a limit {name}")
+        print(f"refused by name {name}")
     print(f"{len(names[HOLDS])} of {len(names[HOLDS]) + len(misses)} assets hold, "
           f"{len(set(misses) & set(known))} of the others known; "
-          f"{len(names[REFUSED])} are refused by a limit, "
+          f"{len(names[REFUSED])} are refused by name, "
           f"{len(names[NOTHING])} files have no default prim or cannot be read")
     return 1 if set(misses) - set(known) or right or not names[HOLDS] else 0
 
