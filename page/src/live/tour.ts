@@ -41,7 +41,7 @@ const steps = [
 
 /**
  * Whether they were dismissed before. The storage of a page belongs to its port, which `tenon view`
- * chooses anew each time; a cookie belongs to the machine.
+ * chooses at each start; a cookie belongs to the machine.
  */
 function wasDismissed(): boolean {
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The soft shadow on the ground below what stands there, as under a cloudy sky: how close things are
+// The soft shadow on the ground below what is drawn, as under a cloudy sky: how close things are
 // is drawn from below, small, and blurred. It is drawn again only when something has moved.
 import * as THREE from "three";
 

@@ -170,7 +170,7 @@ export const tests = {
     await listen(page);
     await openTab(page, "Show");
     for (const name of ["Joint axes", "Centres of mass", "Contacts"]) {
-      await page.getByLabel(name).check();
+      await page.getByLabel(name, { exact: false }).first().check();
     }
     await openTab(page, "Plots");
     await ask(page, "play");

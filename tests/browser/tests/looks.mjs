@@ -213,7 +213,7 @@ export const tests = {
     const page = await stage.live(await stage.view(asset, "--read-only"));
     await openTab(page, "Show");
     await page.getByText("Not drawn as the asset says (1)").click();
-    await page.getByText("BasisCurves").waitFor();
+    await page.getByText("BasisCurves", { exact: true }).waitFor();
     await page.locator(".layers code", { hasText: "/World/curve" }).waitFor();
   },
 
@@ -263,14 +263,15 @@ export const tests = {
     const without = await shade(near);
     hold(Math.min(...without) >= Math.min(...light) - 3, `without the ground ${without}`);
     // While pictures come too slowly an old shadow is hidden.
-    await page.evaluate(() => {
+    const old = await page.evaluate(() => {
       const { viewer } = window.tenonPage;
       viewer.showGrid(true);
       viewer.pace.share = 0.5;
       viewer.shadow.stale = true;
       viewer.drawAs(0.5);
+      return viewer.shadow.mesh.visible;
     });
-    hold(!(await page.evaluate(() => window.tenonPage.viewer.shadow.mesh.visible)), "an old shadow is shown");
+    hold(!old, "an old shadow is shown");
     await until(() => page.evaluate(() => window.tenonPage.viewer.shadow.mesh.visible), "the shadow at rest");
     await drawn(page);
   },

@@ -97,7 +97,7 @@ export const tests = {
     await openTab(page, "Findings");
     await button(page, "Check the asset").click();
     await page.locator(".finding").nth(2).waitFor();
-    const text = await page.locator(".findings").textContent();
+    const text = await page.locator(".findings").filter({ has: page.locator(".finding") }).textContent();
     hold(text.includes("<b class=evil>"), "no finding shows the markup as text");
     await noMarkup(page, "findings");
     await page.evaluate(() => window.tenonPage.viewer.select("/World/box"));

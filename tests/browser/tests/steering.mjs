@@ -3,7 +3,9 @@
 //
 // What the live page steers: joints by sliders, against the forward kinematics of the neutral
 // description; time; what is pulled; engines and variants; plots.
-import { ask, button, drawn, hold, listen, near, openTab, settled, sleep, until } from "../harness.mjs";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { ask, button, drawn, hold, listen, near, openTab, sceneOf, settled, sleep, until } from "../harness.mjs";
 import { apart, held, inverse, product } from "../poses.mjs";
 import { pixels } from "../silhouette.mjs";
 
@@ -161,7 +163,7 @@ export const tests = {
     const paused = await clock(page);
     await sleep(600);
     near(await clock(page), paused, 1e-9, "time while it is paused");
-    const shown = await page.locator(".clock").textContent();
+    const shown = await page.getByRole("status", { name: "contacts" }).textContent();
     hold(shown.startsWith(paused.toFixed(2)), `the clock says ${shown}, expected ${paused}`);
     const fallen = await poses(page);
     hold(Object.keys(start).some((path) => far(apart(start[path], fallen[path]))), "nothing falls");
@@ -223,11 +225,25 @@ export const tests = {
   },
 
   async pulling_moves_a_body(stage) {
-    const page = await stage.live(await stage.view(stage.path("examples/inspire_hand/grasp.usda")));
+    const asset = join(stage.folder(), "boxes.usda");
+    const cube = (name, size, at, apis) => `
+    def Cube "${name}" (prepend apiSchemas = [${apis}"PhysicsCollisionAPI"])
+    {
+        double size = ${size}
+        double3 xformOp:translate = (${at})
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }`;
+    const [rigid, on] = ['"PhysicsRigidBodyAPI", ', cube("plate", 1, "0, 0, -0.5", "")];
+    writeFileSync(
+      asset,
+      sceneOf(cube("left", 0.2, "-0.3, 0, 0.1", rigid) + cube("right", 0.2, "0.3, 0, 0.1", rigid) + on),
+    );
+    const page = await stage.live(await stage.view(asset));
     await listen(page);
     await ask(page, "play");
+    await until(async () => (await clock(page)) > 0.5, "all is at rest");
     await button(page, "Pull").click();
-    for (const [name, way] of Object.entries({ can: [0, -90], right_thumb_4: [-80, 60] })) {
+    for (const [name, way] of Object.entries({ left: [0, -90], right: [40, -60] })) {
       await pull(page, name, way);
     }
   },

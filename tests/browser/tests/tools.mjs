@@ -147,7 +147,7 @@ export const tests = {
     hold((await page.locator('[role=treeitem][aria-selected="true"]').count()) === 2, "the tree marks others");
     const text = await page.locator(".inspector").textContent();
     hold(text.includes("2 selected") && text.includes("500 mm"), `it says ${text.slice(0, 200)}`);
-    const marked = await view(page, "new Set([...v.plain.keys()].map((one) => v.bodyPathOf(one))).size");
+    const marked = await view(page, "new Set([...v.marks.plain.keys()].map((one) => v.bodyPathOf(one))).size");
     hold(marked === 2, `${marked} are marked in the picture`);
     // By mouse in the picture: added and taken off.
     const [x, y] = await place(page, [0, 0, 0]);
