@@ -170,14 +170,15 @@ nb::object joints(Batch& batch) {
   return nb::make_tuple(positions.take(), velocities.take());
 }
 
-/// Positions and velocities of all coordinates; joints whose numbers are those that they have are
-/// left alone.
+/// Positions and velocities of all coordinates; joints whose numbers are those that they had before
+/// the call are left alone. What closes a loop moves with the others and cannot be put anywhere.
 void set_joints(Batch& batch, const Numbers& positions, const Numbers& velocities) {
   const std::size_t width = batch.coordinates.size();
   const auto p = span_of(positions, batch.size() * width);
   const auto v = span_of(velocities, batch.size() * width);
   or_raise(with(batch, [&] {
     return each(batch, [&](std::size_t i, World& world) -> Result<void> {
+      std::vector<std::pair<scene::Index, engines::JointState>> changed;
       for (std::size_t at = 0; at < width;) {
         const scene::Index joint = batch.coordinates[at].joint;
         const engines::JointState now = world.joint_state(joint);
@@ -187,8 +188,11 @@ void set_joints(Batch& batch, const Numbers& positions, const Numbers& velocitie
           wanted.velocity[part] = v[i * width + at];
         }
         if (wanted.position != now.position || wanted.velocity != now.velocity) {
-          TENON_CHECK(world.set_joint_state(joint, wanted));
+          changed.emplace_back(joint, std::move(wanted));
         }
+      }
+      for (const auto& [joint, wanted] : changed) {
+        TENON_CHECK(world.set_joint_state(joint, wanted));
       }
       return {};
     });

@@ -405,6 +405,9 @@ class Command(Robot):
                 ((self.asset, path, "--report", "/no/such/a.html"), "no folder"),
                 ((self.asset, path, "--training", "2"), "expected 0.05 to 0.95"),
                 ((self.asset, path, "--prior", "mass=1,1"), "--prior is about"),
+                ((self.asset, path, "--starts", "0"), "expected 1 to"),
+                ((self.asset, path, "--on", "slurm"), "expected ray or ray=ADDRESS"),
+                ((self.asset, path, "--starts", "2", "--state", "s"), "--state is of a single"),
                 ((self.asset, self.folder / "gone.csv"), "gone.csv"),
                 ((self.asset, path, "--identify", "friction:elbow"), "there is no 'elbow'")):
             code, _, err = self.run_main(*words)
@@ -416,6 +419,10 @@ class Command(Robot):
                 code, _, err = self.run_main(self.asset, path, *words)
                 self.assertEqual(code, 4)
                 self.assertIn("pip install 'tenon-usd[identify]'", err)
+        with mock.patch.dict(sys.modules, {"ray": None}):
+            code, _, err = self.run_main(self.asset, path, "--starts", 2, "--on", "ray")
+        self.assertEqual(code, 4)
+        self.assertIn("--on ray needs Ray: pip install 'tenon-usd[ray]'", err)
 
     def test_options_are_those_of_the_program(self):
         done = subprocess.run([PROGRAM, "help", "--json"], capture_output=True, text=True,

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """Logs of robots: each format says the same, what is wrong is told with file, row and column, units
-and signs are checked, delays are found, and quality is measured. No wheel is needed.
+and signs are checked. No wheel is needed.
 
 TENON_EXTRAS=1: a library that is missing is a failure.
 """
@@ -23,11 +23,9 @@ if importlib.util.find_spec("tenon_usd") is None:
     import sweep_source  # noqa: F401
 from tenon_usd.errors import MissingError  # noqa: E402
 from tenon_usd.identify.channels import Reading  # noqa: E402
-from tenon_usd.identify.delays import delay_between, estimate_delays  # noqa: E402
 from tenon_usd.identify.joints import AssetJoint  # noqa: E402
-from tenon_usd.identify.log import Log, LogError  # noqa: E402
+from tenon_usd.identify.log import LogError  # noqa: E402
 from tenon_usd.identify.log_files import read_log  # noqa: E402
-from tenon_usd.identify.quality import assess, noise_of, quantisation_of  # noqa: E402
 
 JOINTS = (AssetJoint("/arm/shoulder", "/arm/shoulder", "rotZ", True, -2.0, 2.0, 6.0, 10.0,
                      has_drive=True, stiffness=50.0),
@@ -84,50 +82,6 @@ class Files(unittest.TestCase):
         return self.csv("time,shoulder.position,shoulder.velocity,shoulder.command,rail.position",
                         [TIMES, turned(TIMES - 0.02), speed(turned, TIMES - 0.02), turned(TIMES),
                          slid(TIMES)])
-
-
-class Values(unittest.TestCase):
-    def log(self):
-        return Log(TIMES, ("/arm/shoulder",), position=turned(TIMES)[:, None],
-                   command_position=np.round(turned(TIMES), 1)[:, None],
-                   rows=np.arange(2, len(TIMES) + 2))
-
-    def test_parts_keep_rows_and_times(self):
-        log = self.log()
-        part = log.window(1.0, 2.0)
-        self.assertEqual((part.times[0], part.times[-1], part.row(0)), (1.0, 2.0, 102))
-        training, held_out = log.split(0.75)
-        self.assertEqual(len(training) + len(held_out), 400)
-        self.assertGreater(held_out.times[0], training.times[-1])
-        for bad in (0.0, 1.0, math.nan, 1e-9):
-            with self.assertRaises(LogError):
-                log.split(bad)
-        with self.assertRaises(LogError):
-            log.window(2.0, 1.0)
-
-    def test_resampled_states_are_between_and_commands_hold(self):
-        log = self.log()
-        fine = log.resample(0.0025)
-        self.assertAlmostEqual(fine.duration, log.duration)
-        self.assertLess(np.abs(fine.position[:, 0] - turned(fine.times)).max(), 1e-3)
-        self.assertTrue(set(fine.command_position[:, 0]) <= set(log.command_position[:, 0]))
-        np.testing.assert_array_equal(fine.command_position[::4], log.command_position)
-        same = log.resample(0.01)
-        np.testing.assert_allclose(same.position, log.position, atol=1e-12)
-        for bad in (0.0, -1.0, math.nan, 1e-12):
-            with self.assertRaises(LogError):
-                log.resample(bad)
-
-    def test_what_is_no_log_is_refused_with_its_row(self):
-        times = TIMES.copy()
-        times[7] = times[6]
-        with self.assertRaises(LogError) as caught:
-            Log(times, ("a",), position=turned(TIMES)[:, None])
-        self.assertEqual(caught.exception.line, 8)
-        for bad in (lambda: Log(TIMES, ("a", "b"), position=turned(TIMES)[:, None]),
-                    lambda: self.log().column("elbow")):
-            self.assertRaises(LogError, bad)
-        self.assertEqual(self.log().column("shoulder"), 0)
 
 
 class Tables(Files):
@@ -516,84 +470,117 @@ class Ros(Files):
         self.refused(folder, "log.ragged", 4)
 
 
-class Delays(unittest.TestCase):
-    def test_a_delay_is_found_within_a_tenth_of_a_step(self):
-        step = 0.01
-        random = np.random.default_rng(3)
-        for delay in (0.0, 0.0023, 0.005, 0.0137, 0.08):
-            noise = random.normal(0, 1e-4, len(TIMES))
-            found, likeness = delay_between(TIMES, turned(TIMES), turned(TIMES - delay) + noise)
-            self.assertLess(abs(found - delay), 0.1 * step, delay)
-            self.assertGreater(likeness, 0.95)
+class Faults(Files):
+    """What is wrong with a row or a channel is told alike by every reader."""
 
-    def test_what_does_not_move_or_is_not_alike_has_none(self):
-        random = np.random.default_rng(4)
-        other = np.cumsum(random.normal(size=len(TIMES)))
-        log = Log(TIMES, ("still", "other"),
-                  position=np.stack([0 * TIMES, other], 1),
-                  command_position=np.stack([turned(TIMES), turned(TIMES)], 1))
-        for each in estimate_delays(log):
-            self.assertFalse(each.is_known, each)
-        self.assertEqual(delay_between(TIMES[:2], TIMES[:2], TIMES[:2])[1], 0.0)
+    #: What is done to samples, and the rule: the row is the 31st sample.
+    CASES = (("log.not-finite", lambda times, place: place.__setitem__(30, math.nan)),
+             ("log.not-finite", lambda times, place: place.__setitem__(30, math.inf)),
+             ("log.gap", lambda times, place: times.__iadd__(np.where(TIMES[:100] > 0.295, 1, 0))),
+             ("log.time-order", lambda times, place: times.__setitem__(30, times[29])),
+             ("log.time-order", lambda times, place: times.__setitem__(30, times[20])),
+             ("log.unknown-channel", None))
 
+    def check(self, write, first_row, rows_of_channels=0):
+        """`write(times, place, joint)` gives the path; `first_row` is the row of sample 1."""
+        path = write(TIMES[:100], turned(TIMES[:100]), "shoulder")
+        self.assertEqual(len(read_log(path, JOINTS)[0]), 100)
+        for rule, change in self.CASES:
+            times, place = TIMES[:100].copy(), turned(TIMES[:100])
+            if change:
+                change(times, place)
+            with self.subTest(rule, path=path.name):
+                path = write(times, place, "shoulder" if change else "elbow")
+                error = self.refused(path, rule, first_row + 30 if change else rows_of_channels)
+                self.assertTrue(str(error.file).startswith(str(path)))
+                self.assertIn(error.channel and ("elbow" if not change else ""), str(error))
 
-class Qualities(unittest.TestCase):
-    def log(self, place, **more):
-        columns = {name: values[:, None] for name, values in more.items()}
-        return Log(TIMES, ("/arm/shoulder",), position=place[:, None], **columns)
+    def test_tables(self):
+        self.check(lambda times, place, joint: self.csv(f"time,{joint}.position", [times, place]),
+                   2, 1)
+        self.check(lambda times, place, joint: self.csv(f"time,{joint}.position", [times, place],
+                                                        "log.tsv"), 2, 1)
 
-    def rules(self, log):
-        return {each.rule for each in assess(log, JOINTS).findings}
+    def test_archives(self):
+        path = self.folder / "log.npz"
 
-    def test_steps_of_encoders_and_noise_are_measured(self):
-        random = np.random.default_rng(2)
-        for step in (2 * np.pi / 4096, 1e-4, 0.01):
-            found = quantisation_of(np.round(turned(TIMES) / step) * step)
-            self.assertAlmostEqual(found / step, 1, delta=0.01)
-        self.assertEqual(quantisation_of(turned(TIMES)), 0)
-        for noise in (1e-4, 1e-3):
-            found = noise_of(turned(TIMES) + random.normal(0, noise, len(TIMES)))
-            self.assertAlmostEqual(found / noise, 1, delta=0.25)
+        def joints(times, place, joint):
+            np.savez(path, time=times, joints=[joint], position=place[:, None])
+            return path
 
-    def test_a_good_log_has_no_finding(self):
-        quality = assess(self.log(turned(TIMES), command_position=turned(TIMES)), JOINTS)
-        self.assertEqual(quality.findings, ())
-        (row,) = quality.joints
-        self.assertAlmostEqual(quality.rate, 100, delta=1e-6)
-        self.assertAlmostEqual(row.moved, np.ptp(turned(TIMES)))
-        self.assertAlmostEqual(row.range_share, row.moved / 4)
-        self.assertLess(row.condition, 10)
-        self.assertIn("shoulder", quality.text())
-        json.dumps(quality.to_json(), allow_nan=False)
+        def columns(times, place, joint):
+            np.savez(path, time=times, columns=[f"{joint}.position"], values=place[:, None])
+            return path
+        self.check(joints, 1)
+        self.check(columns, 1)
 
-    def test_each_fault_is_told(self):
-        place = turned(TIMES)
-        random = np.random.default_rng(6)
-        told = {"command_position": place}
-        self.assertIn("quality.still", self.rules(self.log(0 * place + 0.3, **told)))
-        self.assertIn("quality.small", self.rules(self.log(0.01 * place, **told)))
-        self.assertIn("quality.coarse", self.rules(self.log(np.round(place / 0.1) * 0.1, **told)))
-        self.assertIn("quality.noise", self.rules(
-            self.log(place + random.normal(0, 0.05, len(place)), **told)))
-        self.assertIn("quality.no-input", self.rules(self.log(place)))
-        self.assertIn("quality.saturated", self.rules(
-            self.log(place, effort=np.clip(30 * place, -10, 10))))
-        self.assertIn("quality.one-way", self.rules(
-            self.log(0.3 * TIMES, command_position=0.3 * TIMES)))
-        self.assertIn("quality.repeated", self.rules(
-            self.log(np.repeat(place[::2], 2), **told)))
-        times = TIMES + random.uniform(-0.004, 0.004, len(TIMES))
-        jitter = Log(np.sort(times), ("/arm/shoulder",), position=place[:, None],
-                     command_position=place[:, None])
-        self.assertIn("quality.jitter", self.rules(jitter))
-        gap = np.where(TIMES > 2, TIMES + 1, TIMES)
-        log = Log(gap, ("/arm/shoulder",), position=place[:, None], rows=np.arange(len(gap)) + 2,
-                  command_position=place[:, None])
-        (found,) = [each for each in assess(log, JOINTS).findings if each.rule == "quality.gap"]
-        self.assertEqual(found.line, 203)
-        fast = Log(TIMES[::8], ("/arm/shoulder",), position=np.sin(40 * TIMES[::8])[:, None],
-                   command_position=np.sin(40 * TIMES[::8])[:, None])
-        self.assertIn("quality.rate", self.rules(fast))
+    @needs("pyarrow")
+    def test_parquet_and_lerobot(self):
+        import pyarrow
+        import pyarrow.parquet
+
+        def parquet(times, place, joint):
+            path = self.folder / "log.parquet"
+            pyarrow.parquet.write_table(pyarrow.table({"time": times, f"{joint}.pos": place}), path)
+            return path
+
+        def lerobot(times, place, joint):
+            folder = self.folder / "set"
+            (folder / "meta").mkdir(parents=True, exist_ok=True)
+            (folder / "data").mkdir(exist_ok=True)
+            (folder / "meta/info.json").write_text(json.dumps({
+                "total_episodes": 1, "data_path": "data/file-{episode_index}.parquet",
+                "features": {"observation.state": {"names": [f"{joint}.pos"]}}}))
+            pyarrow.parquet.write_table(pyarrow.table({
+                "timestamp": times, "observation.state": list(place[:, None])}),
+                folder / "data/file-0.parquet")
+            return folder
+        self.check(parquet, 1)
+        self.check(lerobot, 1)
+
+    @needs("mcap")
+    def test_mcap(self):
+        from mcap.writer import Writer
+
+        def mcap(times, place, joint):
+            sink = io.BytesIO()
+            writer = Writer(sink)
+            writer.start()
+            channel = writer.register_channel("/joint_states", "json", writer.register_schema(
+                "sensor_msgs/msg/JointState", "jsonschema", b"{}"))
+            for number, (time, value) in enumerate(zip(times, place, strict=True)):
+                stamp = STAMP + round(float(time) * 1e9)
+                header = {"stamp": {"sec": stamp // 10**9, "nanosec": stamp % 10**9}}
+                writer.add_message(channel, STAMP + number, json.dumps({
+                    "header": header, "name": [joint], "position": [value]}).encode(), STAMP)
+            writer.finish()
+            (self.folder / "log.mcap").write_bytes(sink.getvalue())
+            return self.folder / "log.mcap"
+        self.check(mcap, 1)
+
+    @needs("rosbags")
+    def test_bags(self):
+        from rosbags.rosbag2 import Writer
+        from rosbags.typesys import Stores, get_typestore
+        store = get_typestore(Stores.ROS2_HUMBLE)
+        State, Header, Stamp = (store.types[name] for name in (
+            "sensor_msgs/msg/JointState", "std_msgs/msg/Header", "builtin_interfaces/msg/Time"))
+
+        def bag(times, place, joint):
+            folder = self.folder / "bag"
+            shutil.rmtree(folder, ignore_errors=True)
+            with Writer(folder, version=9) as writer:
+                states = writer.add_connection("/joint_states", State.__msgtype__, typestore=store)
+                for number, (time, value) in enumerate(zip(times, place, strict=True)):
+                    stamp = STAMP + round(float(time) * 1e9)
+                    told = Header(stamp=Stamp(sec=stamp // 10**9, nanosec=stamp % 10**9),
+                                  frame_id="")
+                    message = State(header=told, name=[joint], position=np.array([value]),
+                                    velocity=np.zeros(0), effort=np.zeros(0))
+                    writer.write(states, STAMP + number,
+                                 store.serialize_cdr(message, State.__msgtype__))
+            return folder
+        self.check(bag, 1)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
 """Known truth of `tenon identify`: joints that lead others by mimic laws, arms of several links,
-and how often intervals of 95 % hold what made a log.
+loops, several starts, logs of something else, and how often intervals of 95 % hold what made a log;
+and logs as values, with their delays and their quality.
 
     test_identify_truth.py
 """
 
+import dataclasses
+import importlib.util
+import json
 import math
 import sys
 import unittest
@@ -14,18 +18,26 @@ import numpy as np
 import support
 
 try:
+    import scipy.optimize
     import scipy.signal
 
+    import identify_robots
     import tenon_usd as tenon
+    from tenon_usd.identify.delays import delay_between, estimate_delays
     from tenon_usd.identify.identifiable import judge, sensitivity, weights_of
     from tenon_usd.identify.intervals import sum_deviation
-    from tenon_usd.identify.log import Log
+    from tenon_usd.identify.log import Log, LogError
     from tenon_usd.identify.model import Model, Windows, largest_speed
     from tenon_usd.identify.overlay import make_overlay, write_overlay
+    from tenon_usd.identify.linear import _bounded, linear_start
     from tenon_usd.identify.parameters import Parameter, Row, select
+    from tenon_usd.identify.quality import assess, noise_of, quantisation_of
+    from tenon_usd.identify.report import identified_json, identified_lines
+    from tenon_usd.identify.run import RefusedError, identify
     from tenon_usd.identify.selftest import (DEFAULT_FAMILIES, MOST_SPEED, commands, perturbed,
                                              self_test, simulated)
     from tenon_usd.identify.solve import _Fit, solve
+    from test_identify_logs import JOINTS, TIMES, turned
 except ImportError as reason:
     print(f"skipped: {reason}")
     sys.exit(77)
@@ -215,6 +227,139 @@ class Beside(Case):
         self.assertNotIn("effort", Model(asset, fast, step=STEP).measured)
 
 
+class Starting(Case):
+    def test_a_delay_of_some_joints_is_not_that_of_all(self):
+        """The others come at once: they took the delay that was found from the gains, and those
+        10 % off."""
+        rows = [Row("delay", "j1"), Row("stiffness"), Row("driveDamping")]
+        asset, single, truth, log = self.made(ARM, rows)
+        self.assertGreater(truth[0], 2 * STEP)
+        first = linear_start(Model(asset, log, step=STEP), single)
+        self.assertLess(abs(first[0] - truth[0]), 0.004)
+        np.testing.assert_allclose(first[1:3], truth[1:3], rtol=0.02)
+
+    def test_bounds_hold_for_tiny_numbers_as_well(self):
+        """Efforts of a gripper that weighs a milligram: numbers came out ten times too large."""
+        random = np.random.default_rng(0)
+        matrix = random.standard_normal((50, 3))
+        wanted = matrix @ [1.0, -0.2, 0.5] + 0.1 * random.standard_normal(50)
+        found = [_bounded(scipy.optimize, matrix, factor * wanted, np.zeros(3),
+                          np.full(3, np.inf)) / factor for factor in (1.0, 1e-7)]
+        np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-6)
+        self.assertLess(found[0][1], 1e-6)
+
+    def test_joints_begin_within_their_limits(self):
+        """One that the asset has outside of them would be thrown back in the first step."""
+        text = HINGE.replace("lowerLimit = -120", "lowerLimit = 30")
+        asset, _, _, log = self.made(text, [Row("stiffness")])
+        self.assertGreater(log.position[0, 0], math.radians(30))
+        self.assertLess(np.abs(np.diff(log.position[:, 0])).max(), 0.05)
+
+    def test_windows_begin_with_closed_loops(self):
+        """Only one of four joints is in the log; the others go where it has them."""
+        rows = [Row("stiffness"), Row("driveDamping")]
+        text = identify_robots.texts()["four bars"].replace(
+            "stiffness = 1\n", "stiffness = 1.4\n").replace("damping = 0.02", "damping = 0.08")
+        asset, single, truth, log = self.made(text, rows)
+        model = Model(asset, log, step=STEP, window=0.5)
+        self.assertEqual(len(model.windows), 4)
+        apart = model.predict(single, truth[None])["position"][0] - model.measured["position"]
+        self.assertLess(np.nanmax(np.abs(apart)), 1e-3)
+
+
+    def test_an_armature_that_is_set_is_one_of_the_asset(self):
+        """MuJoCo's friction held it softer, so that a layer with what was found did otherwise."""
+        ends = []
+        for authored in (True, False):
+            text = HEAD + link(0, 0.01, 0.05, 0, drive=(4e-4, 4e-5, 3), more=(
+                "        float newton:friction = 0.02\n        float newton:armature = "
+                f"{0.002 if authored else 0}\n")) + "}\n"
+            world = tenon.World(self.asset(text.replace(
+                '["PhysicsDriveAPI:angular"]', '["PhysicsDriveAPI:angular", "NewtonJointAPI"]')),
+                time_step=STEP)
+            if not authored:
+                world.set_parameter("jointArmature", "/World/j0", 0.002)
+            world.set_efforts([[0.1]])
+            for _ in range(100):
+                world.step()
+            ends.append(float(world.joint_positions[0][0]))
+        self.assertAlmostEqual(ends[1], ends[0], delta=1e-5)
+
+    def test_strong_damping_is_no_end(self):
+        """It stops the link within a tenth of a step, where rk4 becomes unstable."""
+        text = (HEAD + link(0, 0.001, 0.05, 0, drive=(0.02, 2e-4, 3),
+                            more="        float newton:damping = 1e-4\n") + "}\n").replace(
+            '["PhysicsDriveAPI:angular"]', '["PhysicsDriveAPI:angular", "NewtonJointAPI"]')
+        asset, single, truth, log = self.made(text, [Row("stiffness")])
+        model = Model(asset, log, step=STEP)
+        apart = model.predict(single, truth[None])["position"][0] - model.measured["position"]
+        self.assertLess(np.nanmax(np.abs(apart)), 0.01 * np.ptp(log.position))
+        with self.assertRaises(tenon.UnstableError):
+            simulated(asset, single, truth, log, step=STEP, integrator="rk4")
+
+
+class Wrong(Case):
+    """Logs of another robot, joint or scale, which a trajectory fits all the same."""
+
+    def refused(self, words, asset, log, rows):
+        with self.assertRaisesRegex(RefusedError, words):
+            identify(asset, [log], rows, step=STEP, replay=False)
+
+    def test_joints_and_signs(self):
+        rows = [Row("stiffness"), Row("driveDamping")]
+        asset, _, _, log = self.made(ARM, rows)
+        other = {name: getattr(log, name)[:, ::-1] for name in ("position", "effort")}
+        self.refused("/j0 follows the command of /World/j1 .*--map", asset,
+                     dataclasses.replace(log, **other), rows)
+        self.refused("efforts of /World/j0 push away .*--sign j0.effort=-1", asset,
+                     dataclasses.replace(log, effort=-log.effort), rows)
+        # All channels of a joint with the name of the other one.
+        log = dataclasses.replace(log, command_position=log.command_position[:, ::-1], **other)
+        found = identify(asset, [log], rows, step=STEP, replay=False)
+        self.assertIn("/World/j0", found.foreign)
+
+    def test_scales(self):
+        rows = [Row("stiffness"), Row("driveDamping"), Row("friction"), Row("armature")]
+        asset, _, _, log = self.made(HINGE, rows)
+        for name, factor in (("effort", 10.0), ("effort", 0.3), ("position", 2.0)):
+            with self.subTest(name, factor=factor):
+                other = dataclasses.replace(log, **{name: factor * getattr(log, name)})
+                found = identify(asset, [other], rows, step=STEP, replay=False)
+                self.assertEqual(found.foreign, ("/World/j0",))
+        self.assertEqual(identify(asset, [log], rows, step=STEP, replay=False).foreign, ())
+
+    def test_what_scales_together_is_refused(self):
+        """With all gains, efforts and the mass k times as large everything moves as it does."""
+        rows = [Row(family) for family in ("effortScale", "mass", "friction", "damping",
+                                           "armature", "stiffness", "driveDamping")]
+        asset, _, _, log = self.made(HINGE, rows[2:])
+        self.refused("effortScale:/World/j0 is not told by the log: it only appears together with "
+                     ".*mass:/World/b0", asset, log, rows)
+
+
+class Starts(Case):
+    ROWS = (Row("stiffness"), Row("friction"))
+
+    def test_the_best_of_several_counts(self):
+        asset, _, truth, log = self.made(HINGE, self.ROWS, 1.5)
+        found = [identify(asset, [log], self.ROWS, step=STEP, starts=3, replay=False)
+                 for _ in range(2)]
+        np.testing.assert_allclose(found[0].solution.values, truth, rtol=0.02)
+        self.assertEqual(found[0].costs.shape, (3,))
+        self.assertRegex("\n".join(identified_lines(found[0])), "[123] of 3 starts end where")
+        self.assertEqual(len(identified_json(found[0])["starts"]), 3)
+        self.assertEqual(found[0].solution.values.tobytes(), found[1].solution.values.tobytes())
+
+    def test_on_ray_the_same_comes_out(self):
+        if importlib.util.find_spec("ray") is None:
+            self.skipTest("Ray is not installed")
+        asset, _, _, log = self.made(HINGE, self.ROWS, 1.5)
+        here, there = (identify(asset, [log], self.ROWS, step=STEP, starts=2, on=place, threads=2,
+                                replay=False) for place in ("", "ray"))
+        self.assertEqual(here.solution.values.tobytes(), there.solution.values.tobytes())
+        self.assertEqual(here.costs.tobytes(), there.costs.tobytes())
+
+
 class Line:
     """A model in closed form: two channels of one joint, sums of two shapes."""
 
@@ -271,6 +416,130 @@ class Intervals(unittest.TestCase):
             self.assertTrue(0.88 <= held[parameter] / self.SEEDS <= 0.99, held / self.SEEDS)
             # If samples were taken to be independent of each other:
             self.assertLess(alone[parameter] / self.SEEDS, 0.7)
+
+
+class Values(unittest.TestCase):
+    def log(self):
+        return Log(TIMES, ("/arm/shoulder",), position=turned(TIMES)[:, None],
+                   command_position=np.round(turned(TIMES), 1)[:, None],
+                   rows=np.arange(2, len(TIMES) + 2))
+
+    def test_parts_keep_rows_and_times(self):
+        log = self.log()
+        part = log.window(1.0, 2.0)
+        self.assertEqual((part.times[0], part.times[-1], part.row(0)), (1.0, 2.0, 102))
+        training, held_out = log.split(0.75)
+        self.assertEqual(len(training) + len(held_out), 400)
+        self.assertGreater(held_out.times[0], training.times[-1])
+        for bad in (0.0, 1.0, math.nan, 1e-9):
+            with self.assertRaises(LogError):
+                log.split(bad)
+        with self.assertRaises(LogError):
+            log.window(2.0, 1.0)
+
+    def test_resampled_states_are_between_and_commands_hold(self):
+        log = self.log()
+        fine = log.resample(0.0025)
+        self.assertAlmostEqual(fine.duration, log.duration)
+        self.assertLess(np.abs(fine.position[:, 0] - turned(fine.times)).max(), 1e-3)
+        self.assertTrue(set(fine.command_position[:, 0]) <= set(log.command_position[:, 0]))
+        np.testing.assert_array_equal(fine.command_position[::4], log.command_position)
+        same = log.resample(0.01)
+        np.testing.assert_allclose(same.position, log.position, atol=1e-12)
+        for bad in (0.0, -1.0, math.nan, 1e-12):
+            with self.assertRaises(LogError):
+                log.resample(bad)
+
+    def test_what_is_no_log_is_refused_with_its_row(self):
+        times = TIMES.copy()
+        times[7] = times[6]
+        with self.assertRaises(LogError) as caught:
+            Log(times, ("a",), position=turned(TIMES)[:, None])
+        self.assertEqual(caught.exception.line, 8)
+        for bad in (lambda: Log(TIMES, ("a", "b"), position=turned(TIMES)[:, None]),
+                    lambda: self.log().column("elbow")):
+            self.assertRaises(LogError, bad)
+        self.assertEqual(self.log().column("shoulder"), 0)
+
+
+class Delays(unittest.TestCase):
+    def test_a_delay_is_found_within_a_tenth_of_a_step(self):
+        step = 0.01
+        random = np.random.default_rng(3)
+        for delay in (0.0, 0.0023, 0.005, 0.0137, 0.08):
+            noise = random.normal(0, 1e-4, len(TIMES))
+            found, likeness = delay_between(TIMES, turned(TIMES), turned(TIMES - delay) + noise)
+            self.assertLess(abs(found - delay), 0.1 * step, delay)
+            self.assertGreater(likeness, 0.95)
+
+    def test_what_does_not_move_or_is_not_alike_has_none(self):
+        random = np.random.default_rng(4)
+        other = np.cumsum(random.normal(size=len(TIMES)))
+        log = Log(TIMES, ("still", "other"),
+                  position=np.stack([0 * TIMES, other], 1),
+                  command_position=np.stack([turned(TIMES), turned(TIMES)], 1))
+        for each in estimate_delays(log):
+            self.assertFalse(each.is_known, each)
+        self.assertEqual(delay_between(TIMES[:2], TIMES[:2], TIMES[:2])[1], 0.0)
+
+
+class Qualities(unittest.TestCase):
+    def log(self, place, **more):
+        columns = {name: values[:, None] for name, values in more.items()}
+        return Log(TIMES, ("/arm/shoulder",), position=place[:, None], **columns)
+
+    def rules(self, log):
+        return {each.rule for each in assess(log, JOINTS).findings}
+
+    def test_steps_of_encoders_and_noise_are_measured(self):
+        random = np.random.default_rng(2)
+        for step in (2 * np.pi / 4096, 1e-4, 0.01):
+            found = quantisation_of(np.round(turned(TIMES) / step) * step)
+            self.assertAlmostEqual(found / step, 1, delta=0.01)
+        self.assertEqual(quantisation_of(turned(TIMES)), 0)
+        for noise in (1e-4, 1e-3):
+            found = noise_of(turned(TIMES) + random.normal(0, noise, len(TIMES)))
+            self.assertAlmostEqual(found / noise, 1, delta=0.25)
+
+    def test_a_good_log_has_no_finding(self):
+        quality = assess(self.log(turned(TIMES), command_position=turned(TIMES)), JOINTS)
+        self.assertEqual(quality.findings, ())
+        (row,) = quality.joints
+        self.assertAlmostEqual(quality.rate, 100, delta=1e-6)
+        self.assertAlmostEqual(row.moved, np.ptp(turned(TIMES)))
+        self.assertAlmostEqual(row.range_share, row.moved / 4)
+        self.assertLess(row.condition, 10)
+        self.assertIn("shoulder", quality.text())
+        json.dumps(quality.to_json(), allow_nan=False)
+
+    def test_each_fault_is_told(self):
+        place = turned(TIMES)
+        random = np.random.default_rng(6)
+        told = {"command_position": place}
+        self.assertIn("quality.still", self.rules(self.log(0 * place + 0.3, **told)))
+        self.assertIn("quality.small", self.rules(self.log(0.01 * place, **told)))
+        self.assertIn("quality.coarse", self.rules(self.log(np.round(place / 0.1) * 0.1, **told)))
+        self.assertIn("quality.noise", self.rules(
+            self.log(place + random.normal(0, 0.05, len(place)), **told)))
+        self.assertIn("quality.no-input", self.rules(self.log(place)))
+        self.assertIn("quality.saturated", self.rules(
+            self.log(place, effort=np.clip(30 * place, -10, 10))))
+        self.assertIn("quality.one-way", self.rules(
+            self.log(0.3 * TIMES, command_position=0.3 * TIMES)))
+        self.assertIn("quality.repeated", self.rules(
+            self.log(np.repeat(place[::2], 2), **told)))
+        times = TIMES + random.uniform(-0.004, 0.004, len(TIMES))
+        jitter = Log(np.sort(times), ("/arm/shoulder",), position=place[:, None],
+                     command_position=place[:, None])
+        self.assertIn("quality.jitter", self.rules(jitter))
+        gap = np.where(TIMES > 2, TIMES + 1, TIMES)
+        log = Log(gap, ("/arm/shoulder",), position=place[:, None], rows=np.arange(len(gap)) + 2,
+                  command_position=place[:, None])
+        (found,) = [each for each in assess(log, JOINTS).findings if each.rule == "quality.gap"]
+        self.assertEqual(found.line, 203)
+        fast = Log(TIMES[::8], ("/arm/shoulder",), position=np.sin(40 * TIMES[::8])[:, None],
+                   command_position=np.sin(40 * TIMES[::8])[:, None])
+        self.assertIn("quality.rate", self.rules(fast))
 
 
 if __name__ == "__main__":

@@ -302,7 +302,7 @@ def Xform "W"
 
 class Bodies(support.FilesTestCase):
     def test_a_body_that_is_put_where_it_is_moves_on_as_it_was(self):
-        # Engines begin the contacts of a body that is set anew.
+        # Engines begin the contacts of a body that is set again.
         for engine in ("mujoco", "physx", "jolt"):
             with self.subTest(engine):
                 left, put = (tenon.World(support.GRASP, engine, threads=1) for _ in range(2))

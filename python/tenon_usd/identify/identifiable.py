@@ -22,6 +22,9 @@ from .parameters import FAMILIES, Parameter
 MOST_ERROR = 0.5
 #: Parts of a direction that belong to a group of parameters that only appear together.
 TOGETHER = 0.2
+#: Directions in which columns of length 1 move by less are as good as none: differences of
+#: simulations are no more exact than that.
+DOUBT = 1e-3
 #: Noise counts as at least this part of a signal's deviation: no model is better than that.
 LEAST_NOISE = 0.01
 
@@ -83,19 +86,21 @@ def moments_of(model: Model) -> tuple[Array, Array]:
 
 def sensitivity(model: Model, parameters: list[Parameter], values: Array,
                 weights: dict[str, Array]) -> tuple[Array, Array]:
-    """Residuals (numbers,) at `values`, and their derivatives (numbers, P)."""
-    return Around(model, parameters, values).slopes(weights)
+    """Residuals (numbers,) at `values`, and their derivatives (numbers, P), of differences to both
+    sides."""
+    return Around(model, parameters, values, True).slopes(weights)
 
 
 class Around:
     """What a model does with values, in the first set, and with each of them a little changed.
 
-    Which command counts at a sample is the same with a little more delay: it changes an effort by
-    what the joint does, not by a jump."""
+    `exact`: to both sides, where bounds leave room. Which command counts at a sample is the same
+    with a little more delay: it changes an effort by what the joint does, not by a jump."""
 
-    def __init__(self, model: Model, parameters: list[Parameter], values: Array) -> None:
+    def __init__(self, model: Model, parameters: list[Parameter], values: Array,
+                 exact: bool = False) -> None:
         self.model, self.values = model, values.copy()
-        ahead, behind, self._both, sets, clock = _varied(model, parameters, values)
+        ahead, behind, self._both, sets, clock = _varied(model, parameters, values, exact)
         self._steps = ahead + behind
         self.predicted = model.predict(parameters, sets, clock)
 
@@ -107,7 +112,7 @@ class Around:
         return apart[0], np.asarray((apart[1:1 + count] - lower).T / self._steps)
 
 
-def _varied(model: Model, parameters: list[Parameter], values: Array
+def _varied(model: Model, parameters: list[Parameter], values: Array, exact: bool
             ) -> tuple[Array, Array, npt.NDArray[np.intp], Array, Array]:
     """Steps ahead and behind (P,), which parameters have both, and the sets with their clocks."""
     ahead, behind = np.zeros(len(parameters)), np.zeros(len(parameters))
@@ -117,11 +122,14 @@ def _varied(model: Model, parameters: list[Parameter], values: Array
             continue
         step = 2e-3 * max(abs(values[at]), parameter.scale)
         ahead[at] = -step if values[at] + step > parameter.high else step
+        if exact and parameter.low <= values[at] - step and values[at] + step <= parameter.high:
+            behind[at] = step
     both = np.flatnonzero(behind)
     sets = np.concatenate([values[None], values[None] + np.diag(ahead),
                            values[None] - np.diag(behind)[both]])
     clock = sets.copy()
-    clock[:, both] = values[both]
+    late = [at for at, parameter in enumerate(parameters) if parameter.family == "delay"]
+    clock[:, late] = values[late]
     return ahead, behind, both, sets, clock
 
 
@@ -144,9 +152,10 @@ def prior_rows(parameters: list[Parameter], values: Array) -> tuple[Array, Array
     return np.array(apart), np.array(rows).reshape(len(rows), len(parameters))
 
 
-def judge(parameters: list[Parameter], jacobian: Array, values: Array) -> Identifiability:
+def judge(parameters: list[Parameter], jacobian: Array, values: Array, doubt: float = 1e-7
+          ) -> Identifiability:
     """What derivatives of residuals in deviations of the noise say, as if all residuals were
-    independent of each other."""
+    independent of each other. `doubt` is how exact columns are that have the length 1."""
     scales = scales_of(parameters, values)
     _, known = prior_rows(parameters, values)
     scaled = np.concatenate([jacobian, known]) * scales
@@ -156,16 +165,26 @@ def judge(parameters: list[Parameter], jacobian: Array, values: Array) -> Identi
     triangle = np.linalg.qr(np.concatenate([scaled, np.zeros((len(parameters),) * 2)]), mode="r")
     _, singular, right = np.linalg.svd(triangle / lengths)
     with np.errstate(divide="ignore"):
-        inverse = np.where(singular > 1e-7, 1.0 / np.maximum(singular, 1e-300) ** 2, np.inf)
+        inverse = np.where(singular > doubt, 1.0 / np.maximum(singular, 1e-300) ** 2, np.inf)
     variances = np.zeros(len(parameters))
     for value, direction in zip(inverse, right):
         parts = direction ** 2
         variances += np.where(parts > 1e-10, parts * value if np.isfinite(value) else np.inf, 0.0)
     errors = np.where(seen > 1e-9, np.sqrt(variances) / lengths, np.inf)
-    refused = tuple(int(i) for i in np.flatnonzero(errors > MOST_ERROR))
+    least = MOST_ERROR * _wholes(parameters, values)
+    refused = tuple(int(i) for i in np.flatnonzero(errors * scales > least))
     groups = _groups(right, singular, lengths, refused)
     return Identifiability(errors * scales, seen, np.linalg.svd(triangle, compute_uv=False), groups,
                            refused)
+
+
+def _wholes(parameters: list[Parameter], values: Array) -> Array:
+    """Of what an expected error is a part: of the number, or of its scale where the asset has
+    none, shape (P,)."""
+    scales = scales_of(parameters, values)
+    return np.array([scale if each.nominal <= 0 or each.family in ("delay", "offset")
+                     or not np.isfinite(each.nominal) else max(abs(value), each.nominal)
+                     for each, value, scale in zip(parameters, values, scales)])
 
 
 def _groups(right: Array, singular: Array, lengths: Array,

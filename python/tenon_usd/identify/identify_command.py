@@ -33,6 +33,7 @@ from .report import (check_json, check_lines, identified_json, identified_lines,
 from .run import Check, Identified, RefusedError, identify
 from .selftest import Sensors, self_test
 from .solve import SOLVERS
+from .starts import MAX_STARTS, check_place
 
 ABOUT = "Finds numbers of a robot in its logs: friction, damping, armature, gains, delays, masses."
 
@@ -58,9 +59,13 @@ def _parser() -> argparse.ArgumentParser:
     add("--window", type=float, default=0.0, metavar="SECONDS",
         help="how often the simulation begins at the log's state again; 4, of efforts 0.5")
     add("--solver", choices=SOLVERS, default=SOLVERS[0])
-    add("--seed", type=int, default=0, metavar="NUMBER", help="of cma and of --self-test")
+    add("--seed", type=int, default=0, metavar="NUMBER", help="of cma, --starts and --self-test")
     add("-j", "--jobs", type=int, default=0, metavar="COUNT", help="threads; 0: all there are")
     add("--state", default="", metavar="FILE", help="the best so far, to go on from")
+    add("--starts", type=int, default=1, metavar="COUNT",
+        help="fits from as many starts, of which the one counts that leaves least (1)")
+    add("--on", default="", metavar="PLACE",
+        help="the starts on ray: a cluster of this machine; ray=HOST:PORT, ray=auto")
     add("--check", action="store_true", help="only say what the logs tell")
     add("--report", metavar="FILE", help="a page with tables and plots (.html)")
     add("--write", metavar="FILE", help="a layer over the asset with the numbers (.usda)")
@@ -100,6 +105,12 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
         if not low <= getattr(arguments, name) <= high:
             raise InvalidError(f"--{name} is {getattr(arguments, name)}; expected {low:g} to "
                                f"{high:g}")
+    if not 1 <= arguments.starts <= MAX_STARTS:
+        raise InvalidError(f"--starts is {arguments.starts}; expected 1 to {MAX_STARTS}")
+    for option in ("--state", "--self-test"):
+        if getattr(arguments, option[2:].replace("-", "_")) and (
+                arguments.starts > 1 or arguments.on):
+            raise InvalidError(f"{option} is of a single start: leave --starts and --on out")
     if arguments.prior and not arguments.identify and not arguments.parameters:
         raise InvalidError("--prior is about what --identify or --parameters name")
     if arguments.write and not arguments.write.endswith(".usda"):
@@ -118,6 +129,7 @@ def _run(arguments: argparse.Namespace, shown: _Shown) -> int:
     options: dict[str, Any] = {"physics": arguments.physics} if arguments.physics else {}
     if not arguments.check:
         scipy("optimize")  # what is missing is told now, not later
+        check_place(arguments.on)
     if arguments.self_test:
         return _self_test(arguments, rows, options, shown)
     joints = asset_joints(open_stage(arguments.asset, **options).physics())
@@ -128,7 +140,8 @@ def _run(arguments: argparse.Namespace, shown: _Shown) -> int:
             arguments.asset, logs, rows, held_out=held_out, engine=arguments.engine,
             step=arguments.dt, window=arguments.window, training=arguments.training,
             hold=arguments.hold or None, solver=arguments.solver, seed=arguments.seed,
-            state=arguments.state, threads=arguments.jobs, check_only=arguments.check,
+            state=arguments.state, starts=arguments.starts, on=arguments.on,
+            threads=arguments.jobs, check_only=arguments.check,
             shown=shown, **options)
     finally:
         shown.end()

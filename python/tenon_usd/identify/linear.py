@@ -13,6 +13,7 @@ begins, not its result: noise of accelerations makes these numbers too small.
 from __future__ import annotations
 
 import importlib
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -79,35 +80,52 @@ def _of(parameters: list[Parameter], family: str, joint: str) -> int | None:
 
 
 def _bounded(optimize: Any, matrix: Array, wanted: Array, low: Array, high: Array) -> Array:
+    """Least squares within bounds; sizes are 1, for the solver ends at differences of its own."""
     size = np.sqrt((matrix ** 2).sum(axis=0))
     size = np.where(size > 0, size, 1.0)
-    room = np.where(high > low, high, low + 1e-12)
-    done = optimize.lsq_linear(matrix / size, wanted, bounds=(low * size, room * size))
-    found: Array = np.asarray(done.x) / size
+    unit = float(np.linalg.norm(wanted)) or 1.0
+    least, most = low * size / unit, high * size / unit
+    done = optimize.lsq_linear(matrix / size, wanted / unit,
+                               bounds=(least, np.where(most > least, most, least + 1e-12)))
+    found: Array = np.asarray(done.x) * unit / size
     return found
 
 
 def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],
            optimize: Any) -> None:
-    """Gains of drives that follow positions, at the delay that fits best."""
+    """Gains of drives that follow positions, each at the delay that fits the joints best that
+    share it; where no delay is asked for, commands come at once."""
+    delayed = [each for each in parameters if each.family == "delay"]
+    for shared in [*delayed, None]:
+        joints = shared.paths if shared else [
+            joint for joint in model.log.joints if not any(joint in each.paths for each in delayed)]
+        delay = _gains_of(model, parameters, values, moves, optimize, joints, shared is not None)
+        if shared and delay is not None:
+            at = next(i for i, each in enumerate(parameters) if each is shared)
+            values[at] = min(max(delay, shared.low), shared.high)
+
+
+def _gains_of(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],
+              optimize: Any, joints: Sequence[str], is_late: bool) -> float | None:
+    """Sets the gains of some joints. Returns the delay that fits them best; None where efforts
+    tell nothing."""
     log = model.log
     assert log.effort is not None
-    shared = [at for at, each in enumerate(parameters) if each.family == "delay"]
-    delays = (np.arange(MAX_DELAYS) - MAX_DELAYS // 10) * model.step if shared else np.zeros(1)
+    delays = (np.arange(MAX_DELAYS) - MAX_DELAYS // 10) * model.step if is_late else np.zeros(1)
     errors = np.zeros(len(delays))
     found: dict[tuple[int, int], tuple[Array, list[int]]] = {}
     for column, _, position, _ in model._aimed:
         joint = log.joints[column]
         own = [_of(parameters, family, joint) for family in ("stiffness", "driveDamping")]
-        if position is None or moves[column] is None or not has(log.effort, column):
+        if joint not in joints or position is None or moves[column] is None \
+                or not has(log.effort, column):
             continue
-        most = model.plant.drives[joint].max_force
+        drive = model.plant.drives[joint]
         good = np.isfinite(log.effort[:, column])
-        good &= np.abs(log.effort[:, column]) < 0.98 * most
+        good &= np.abs(log.effort[:, column]) < 0.98 * drive.max_force
         if good.sum() < 20:
             continue
         place, speed, _ = moves[column]
-        drive = model.plant.drives[joint]
         for at, delay in enumerate(delays):
             matrix, wanted, mine = _drive_rows(position, log.times, delay, place, speed,
                                                log.effort[:, column], own, drive)
@@ -116,10 +134,10 @@ def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list
                                 *_bounds(parameters, mine))
                 wanted = wanted - matrix @ made
                 found[column, at] = (made, mine)
-            errors[at] += float((wanted[good] ** 2).sum()) / max(
-                float(np.var(log.effort[good, column])), 1e-12)
+            errors[at] += float((wanted[good] ** 2).sum()) / float(
+                np.var(log.effort[good, column]) or 1.0)
     if not errors.any():
-        return
+        return None
     best = int(np.argmin(errors))
     # Efforts tell between which samples a command counts; here all delays are the same to them.
     alike = np.flatnonzero(errors <= errors[best] * (1 + 1e-6))
@@ -127,9 +145,7 @@ def _gains(model: Model, parameters: list[Parameter], values: Array, moves: list
     for (_, at), (made, mine) in found.items():
         if at == best:
             values[mine] = made
-    for each in shared:
-        values[each] = min(max(float(delays[alike].mean()), parameters[each].low),
-                           parameters[each].high)
+    return float(delays[alike].mean())
 
 
 def _drive_rows(position: Held, times: Array, delay: float, place: Array, speed: Array,

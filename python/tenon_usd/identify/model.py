@@ -25,6 +25,7 @@ from ..options import PathLike
 from ..world import World
 from .log import Array, Log
 from .parameters import FAMILIES, Parameter, Plant, plant_of
+from .states import closed, initial_states
 
 #: Steps, and parts of the way to the next ones.
 Places = tuple[npt.NDArray[np.int64], Array]
@@ -43,8 +44,10 @@ WINDOW, OPEN_WINDOW = 4.0, 0.5
 #: Time constants until what a window begins with is forgotten, and the part of it that is at most
 #: skipped for that.
 FORGOTTEN, MOST_LEFT_OUT = 4.0, 0.25
-#: The integrator of highest order of an engine, where it can be chosen.
+#: The integrator of highest order of an engine, where it can be chosen, and the part of its speed
+#: that damping may take from a joint within a step: an explicit one becomes unstable beyond.
 INTEGRATORS = {"mujoco": "rk4"}
+MOST_DAMPED = 1.0
 #: What is compared, in this order.
 CHANNELS = ("position", "velocity", "effort")
 
@@ -100,30 +103,6 @@ def joined_logs(logs: Sequence[Log]) -> tuple[Log, tuple[int, ...]]:
     return Log(np.concatenate(times), first.joints, source=first.source, **joined), tuple(parts)
 
 
-def initial_states(log: Log, at: npt.NDArray[np.int64], half: float = 0.025) -> tuple[Array, Array]:
-    """Positions and velocities at samples, each shape (W, N): those of a cubic, or where the log
-    begins or ends of a parabola, through the positions around, so that noise of single samples does
-    not become speed. `half` [s]."""
-    assert log.position is not None
-    positions = np.empty((len(at), len(log.joints)))
-    velocities = np.zeros_like(positions)
-    for row, sample in enumerate(at):
-        time = log.times[sample]
-        near = np.abs(log.times - time) <= max(half, 2.01 * log.step)
-        own = log.times[near] - time
-        for column in range(len(log.joints)):
-            values = log.position[near, column]
-            good = np.isfinite(values)
-            both = min(int((good & (own < 0)).sum()), int((good & (own > 0)).sum())) > 2
-            degree = min(3 if both else 2, int(good.sum()) - 1)
-            if degree < 1:
-                positions[row, column] = np.nan if degree < 0 else values[good][0]
-                continue
-            fit = np.polynomial.polynomial.polyfit(own[good], values[good], degree)
-            positions[row, column], velocities[row, column] = fit[0], fit[1]
-    return positions, velocities
-
-
 class Held:
     """A command that holds until the next one, and its mean over time steps."""
 
@@ -161,9 +140,9 @@ class Model:
     `engine` is a name as of tenon_usd.engines(); `step` [s] the time step, 0: the asset's; `window`
     the length of windows [s], 0: WINDOW, or of efforts that are commanded OPEN_WINDOW; `parts` the
     samples at which parts of the log begin. MuJoCo steps with rk4, so that what is found does not
-    depend on the time step. Raises errors of tenon_usd.errors: InvalidError where the log has no
-    positions, or joints and commands that the asset has no place for; UnsupportedError where the
-    engine cannot begin at the log's states.
+    depend on the time step, except assets that become unstable with it. Raises errors of
+    tenon_usd.errors: InvalidError where the log has no positions, or joints and commands that the
+    asset has no place for; UnsupportedError where the engine cannot begin at the log's states.
     """
 
     def __init__(self, asset: PathLike | _tenon.Stage, log: Log, *, engine: str | None = None,
@@ -178,7 +157,7 @@ class Model:
         self._reads_efforts = False
         world = World(asset, engine, 1, threads=1, time_step=step, **options)
         self.engine, self.step = world.engine, world.time_step
-        options.setdefault("integrator", INTEGRATORS.get(self.engine, ""))
+        chosen = options.setdefault("integrator", INTEGRATORS.get(self.engine, ""))
         self._make: Any = lambda envs: World(
             asset, engine, envs, threads=threads or (1 if envs < FEW_ENVS else 0), time_step=step,
             outputs=["efforts"] if self._reads_efforts else [], **options)
@@ -200,6 +179,10 @@ class Model:
                                f"{self.steps * len(self.windows)} steps, of {MAX_STEPS} at most: "
                                "take a part of the log, or a longer time step")
         self._samples()
+        if "integrator" not in self._given and chosen and is_stiff(world) and not np.isfinite(
+                self.predict([], np.zeros((1, 0)))["position"]).all():
+            options["integrator"] = ""
+            self._worlds.clear()
 
     # ---- what there is
 
@@ -270,7 +253,7 @@ class Model:
                         at, of = names.index(joint.path), names.index(leader)
                         positions[:, at] = mimic.multiplier * positions[:, of] + mimic.offset
                         velocities[:, at] = mimic.multiplier * velocities[:, of]
-        self.start = (positions, velocities)
+        self.start = closed(world, self.log, positions, velocities)
 
     def _samples(self) -> None:
         """Where the samples of windows are in time, and what the log has there."""
@@ -550,6 +533,14 @@ def _changes(targets: tuple[Array, Array] | None, steps: int) -> list[bool]:
     if targets is not None:
         made[1:] = np.any([np.any(each[1:] != each[:-1], axis=(1, 2)) for each in targets], axis=0)
     return [bool(each) for each in made]
+
+
+def is_stiff(world: World) -> bool:
+    """Whether damping takes so much within a time step that INTEGRATORS may become unstable; where
+    friction holds such joints they do not."""
+    inertia = _inertia(world)
+    return any((joint.damping + sum(each.damping for each in joint.drives[:1])) * world.time_step
+               > MOST_DAMPED * inertia.get(joint.path, math.inf) for joint in world.scene.joints)
 
 
 def is_plain(drive: Any) -> bool:

@@ -19,6 +19,7 @@ from .parameters import FAMILIES, Parameter
 from .raw_log import lined
 from .run import Check, Identified, Residuals
 from .selftest import SelfTest
+from .starts import alike
 
 #: Plots of a page, and points of a line.
 MAX_PLOTS, MAX_POINTS = 60, 1500
@@ -80,6 +81,7 @@ def identified_json(found: Identified) -> dict[str, Any]:
     return {
         "engine": found.engine, "timeStep": found.step, "finished": solution.finished,
         "settled": solution.settled, "simulations": solution.simulations,
+        "starts": [_plain(cost) for cost in found.costs],
         "check": check_json(found.check),
         "parameters": [{**_of(each), "value": _plain(solution.values[at]),
                         "error": _plain(solution.errors[at]), "low": _plain(solution.low[at]),
@@ -137,6 +139,7 @@ def identified_lines(found: Identified) -> list[str]:
     lines += [SUMS] if any(each.weights for each in found.parameters) else []
     if solution.finished and not solution.settled:
         lines.append("the fit used up its steps: other numbers may leave less")
+    lines += starts_lines(found)
     lines += [f"{each.name}: the log does not tell it; it stays {_short(each.nominal)}"
               for each in found.held]
     lines += [f"{each.name}: it ended at its bound" for each in found.at_bounds]
@@ -152,6 +155,14 @@ def identified_lines(found: Identified) -> list[str]:
         told = replay.why or f"positions {_short(replay.before)} -> {_short(replay.after)}"
         lines.append(f"{replay.engine}: {told}")
     return lines
+
+
+def starts_lines(found: Identified) -> list[str]:
+    """Of several starts one line."""
+    if not len(found.costs):
+        return []
+    return [f"{alike(found.costs)} of {len(found.costs)} starts end where least is left; the "
+            f"worst leaves {_short(float(found.costs.max() / found.costs.min()))} times as much"]
 
 
 def self_test_lines(done: SelfTest) -> list[str]:
@@ -248,6 +259,7 @@ def page(found: Identified, asset: str, sources: Sequence[str]) -> str:
     foreign = "".join(
         f'<p class="bad">{html.escape(joint)}: {part:.0%} of what it does stays unexplained</p>'
         for joint, part in zip(found.joints, found.unexplained) if joint in found.foreign)
+    about += [("starts", line) for line in starts_lines(found)]
     parts = ["<h1>Identification</h1>", _table(["", ""], about), foreign, "<h2>Parameters</h2>",
              _table(["parameter", "asset", "identified", "low (95 %)", "high", "unit", ""],
                     numbers),

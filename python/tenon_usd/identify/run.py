@@ -12,7 +12,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,19 +21,26 @@ from ..errors import Error, InvalidError
 from ..functions import engines as all_engines
 from .identifiable import Identifiability, reasons
 from .joints import asset_joints
+from .linear import smoothed
 from .log import Array, Log
-from .model import CHANNELS, Model, joined_logs
+from .model import CHANNELS, Model, has, joined_logs
 from .overlay import temporary_overlay
 from .parameters import FAMILIES, Parameter, Row, select
 from .quality import Quality, assess
 from .selftest import DEFAULT_FAMILIES
 from .solve import Shown, Solution, look, solve
+from .starts import Task, solve_many
 
 #: Of what a joint does beside its command, or of its effort, the part that may stay unexplained
 #: before the log counts as one of another robot.
 UNEXPLAINED = 0.35
 #: Correlation of a joint with its own command, below which another's is looked for.
 FOLLOWS = 0.7
+#: Of the squares of efforts, what a drive explains at least where their sign is clear, and the
+#: longest delay that is tried [s].
+CLEAR, LONGEST = 0.8, 0.1
+#: Fits parameters; the costs are those of Identified.
+Solved = Callable[[list[Parameter]], tuple[Solution, Array]]
 
 
 class RefusedError(Error):
@@ -94,6 +101,9 @@ class Identified:
     was left of the training part."""
     unexplained: Array
     replays: tuple[Replay, ...]
+    costs: Array
+    """Of each start what is left where it ended, in deviations of the noise of the log; empty of a
+    single one."""
     motion: dict[str, Array]
     """Of the held-out part: "time" (W, samples), "log", "before", "after" (W, samples, N)."""
     joints: tuple[str, ...]
@@ -149,6 +159,34 @@ def check_mapping(log: Log) -> None:
         raise RefusedError(lines)
 
 
+def check_efforts(model: Model) -> None:
+    """Raises RefusedError where efforts are those of a drive of the other sign, which pushes away
+    from its commands."""
+    log, lines = model.log, []
+    assert log.position is not None
+    for column, _, command, speeds in model._aimed:
+        joint = log.joints[column]
+        if command is None or not has(log.effort, column) or not has(log.position, column):
+            continue
+        assert log.effort is not None
+        good = np.isfinite(log.effort[:, column])
+        place, speed, _ = smoothed(log.times, log.position[:, column], 3 * log.step + 0.01)
+        effort = log.effort[good, column]
+        found = []
+        for delay in np.linspace(0, LONGEST, 11):
+            times = log.times - delay
+            wanted = speeds.at(times) if speeds is not None else 0.0
+            law = np.stack([command.at(times) - place, wanted - speed], axis=1)[good]
+            gains = np.linalg.lstsq(law, effort, rcond=None)[0]
+            found.append((float(((effort - law @ gains) ** 2).sum()), float(gains[0])))
+        left, stiffness = min(found)
+        if stiffness < 0 and left < (1 - CLEAR) * float((effort ** 2).sum()):
+            lines.append(f"the efforts of {joint} push away from its commands, as no drive does: "
+                         f"--sign {joint.rpartition('/')[2]}.effort=-1")
+    if lines:
+        raise RefusedError(lines)
+
+
 def _correlations(commands: Array, states: Array) -> Array:
     """Of each command with each state: (commands, states)."""
     a, b = (values - values.mean(axis=0) for values in (commands, states))
@@ -160,14 +198,15 @@ def _correlations(commands: Array, states: Array) -> Array:
 def identify(asset: Any, logs: Sequence[Log], rows: Sequence[Row] = (), *,
              held_out: Sequence[Log] = (), engine: str | None = None, step: float = 0.0,
              window: float = 0.0, training: float = 0.7, hold: bool | None = None,
-             solver: str = "gauss-newton", seed: int = 0, state: str = "", threads: int = 0,
-             replay: bool = True, check_only: bool = False, shown: Shown | None = None,
-             **options: Any) -> Identified | Check:
+             solver: str = "gauss-newton", seed: int = 0, state: str = "", starts: int = 1,
+             on: str = "", threads: int = 0, replay: bool = True, check_only: bool = False,
+             shown: Shown | None = None, **options: Any) -> Identified | Check:
     """Identifies the parameters that `rows` mean; without rows those that logs usually tell.
 
     Of each log the first `training` part of the time is fitted and the rest held out, unless
     `held_out` are logs of their own. `hold`: what the logs do not tell keeps the asset's number;
-    otherwise it is refused (None: refused where rows name it). `check_only` fits nothing and
+    otherwise it is refused (None: refused where rows name it). `starts` fits are made from as many
+    starts, `on` this process or "ray", "ray=ADDRESS" (solve_many()). `check_only` fits nothing and
     returns the Check. `options` are those of tenon_usd.open(). Raises RefusedError, ExtraMissing
     and errors of tenon_usd.errors.
     """
@@ -181,16 +220,24 @@ def identify(asset: Any, logs: Sequence[Log], rows: Sequence[Row] = (), *,
     how: dict[str, Any] = {"engine": engine, "step": step, "window": window, "threads": threads,
                            **options}
     with contextlib.ExitStack() as stack:
-        settable, model, parameters = _settable(asset, fitted, begins, rows, how, stack)
+        settable, model, parameters, given = _settable(asset, fitted, begins, rows, how, stack)
+        check_efforts(model)
         check = _checked(model, parameters)
         if check_only:
             return check
-        solving = {"solver": solver, "seed": seed, "state": state, "shown": shown}
-        return _solved((asset, settable), model, (rest, rests), check, hold, how, solving, replay)
+
+        def solved(parameters: list[Parameter]) -> tuple[Solution, Array]:
+            if starts == 1 and not on:
+                return solve(model, parameters, solver=solver, seed=seed, state=state,
+                             shown=shown), np.zeros(0)
+            task = Task(asset, fitted, begins, how, tuple(parameters), *given, solver, seed)
+            many = solve_many(task, model, starts, on, shown or (lambda *_: None))
+            return many.best, many.costs
+        return _solved((asset, settable), model, (rest, rests), check, hold, how, solved, replay)
 
 
 def _solved(assets: tuple[Any, Any], model: Model, later_logs: tuple[Log, Sequence[int]],
-            check: Check, hold: bool, how: dict[str, Any], solving: dict[str, Any], replay: bool
+            check: Check, hold: bool, how: dict[str, Any], solved: Solved, replay: bool
             ) -> Identified:
     """`assets` are the one that was given, and the one whose numbers the engine can set."""
     (asset, settable), (rest, rests) = assets, later_logs
@@ -201,7 +248,7 @@ def _solved(assets: tuple[Any, Any], model: Model, later_logs: tuple[Log, Sequen
     if not parameters:
         raise RefusedError(check.reasons)
     held = tuple(check.parameters[at] for at in sorted(left))
-    solution = solve(model, parameters, **solving)
+    solution, costs = solved(parameters)
     later = Model(settable, rest, parts=rests, **how)
     pairs = [_both(asset, each, parameters, solution.values, how, asset is settable)
              for each in (model, later)]
@@ -211,7 +258,7 @@ def _solved(assets: tuple[Any, Any], model: Model, later_logs: tuple[Log, Sequen
         _unexplained(later, pairs[1]),
         _replays(asset, rest, rests, parameters, solution.values, how, after,
                  model.engine) if replay else (),
-        {"time": rest.times[later.at], "log": later.measured["position"],
+        costs, {"time": rest.times[later.at], "log": later.measured["position"],
          "before": pairs[1]["position"][0], "after": pairs[1]["position"][1]},
         rest.joints, model.engine, model.step)
 
@@ -240,14 +287,16 @@ def _selected(rows: Sequence[Row], model: Model) -> list[Parameter]:
 
 def _settable(asset: Any, log: Log, parts: Sequence[int], rows: Sequence[Row],
               how: dict[str, Any], stack: contextlib.ExitStack
-              ) -> tuple[Any, Model, list[Parameter]]:
+              ) -> tuple[Any, Model, list[Parameter], tuple[tuple[Parameter, ...], Array]]:
     """The asset, its model and the parameters that the engine can set. Some engines change only
-    what the asset has: a layer over it, of this run alone, gives it that."""
+    what the asset has: a layer over it, of this run alone, gives it that, which comes last."""
     model = Model(asset, log, parts=parts, **how)
     parameters = _selected(rows, model)
     missing = [each for each, _ in model.check(parameters)]
+    given: tuple[tuple[Parameter, ...], Array] = ((), np.zeros(0))
     if missing and isinstance(asset, (str, os.PathLike)):
         starts = np.array([max(each.start, min(0.1 * each.scale, each.high)) for each in missing])
+        given = (tuple(missing), starts)
         asset = stack.enter_context(temporary_overlay(os.fspath(asset), missing, starts))
         model = Model(asset, log, parts=parts, **how)
     refused = model.check(parameters)
@@ -255,7 +304,7 @@ def _settable(asset: Any, log: Log, parts: Sequence[int], rows: Sequence[Row],
         raise InvalidError("; ".join(f"{each.name} cannot be set on {model.engine}: {why}"
                                      for each, why in refused))
     left = [each for each, _ in refused]
-    return asset, model, [each for each in parameters if each not in left]
+    return asset, model, [each for each in parameters if each not in left], given
 
 
 def _checked(model: Model, parameters: list[Parameter]) -> Check:

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidError
+from ..errors import InvalidError, UnstableError
 from ..world import World
 from .identifiable import Identifiability
 from .log import Array, Log
-from .model import INTEGRATORS, Model, largest_speed
+from .model import INTEGRATORS, Model, is_stiff, largest_speed
 from .parameters import FAMILIES, Parameter, Row, select, summed
 from .solve import Shown, Solution, look, solve
 
@@ -98,6 +98,8 @@ def commands(world: World, seed: int, duration: float, period: float, size: floa
         if joint.drives[0].stiffness <= 0 or path in followers or path not in start:
             continue
         low, high = _range(joint, float(start[path]))
+        if not joint.lower <= start[path] <= joint.upper:
+            start[path] = min(max(start[path], low), high)
         joints.append(path)
         made = _excited(random, times, low, high, float(start[path])) - start[path]
         fastest = float(np.abs(np.diff(made)).max()) / period
@@ -166,9 +168,26 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
               **options: Any) -> Log:
     """The log that the asset with these numbers makes, without noise: commands hold until the next
     one and come late by the delay, in whole steps. It steps on its own, apart from the model of a
-    fit. `touches` gets the times at which more touches than in the first step."""
-    name = World(asset, engine, 1, **options).engine
-    options.setdefault("integrator", INTEGRATORS.get(name, ""))
+    fit. `touches` gets the times at which more touches than in the first step. As in a Model, an
+    asset that is too stiff for rk4 goes without."""
+    given: dict[str, Any] = {"step": step, "engine": engine, "touches": touches, **options}
+    if "integrator" in options:
+        return _simulated(asset, parameters, values, commanded, **given)
+    plain = World(asset, engine, 1, time_step=step, **options)
+    best = INTEGRATORS.get(plain.engine, "")
+    try:
+        return _simulated(asset, parameters, values, commanded, integrator=best, **given)
+    except UnstableError:
+        if not is_stiff(plain):
+            raise
+    if touches:
+        touches.clear()
+    return _simulated(asset, parameters, values, commanded, integrator="", **given)
+
+
+def _simulated(asset: Any, parameters: Sequence[Parameter], values: Array, commanded: Log, *,
+               step: float, engine: str | None, touches: list[float] | None, **options: Any
+               ) -> Log:
     world = World(asset, engine, 1, time_step=step, outputs=["efforts"] + (
         [] if touches is None else ["contacts"]), **options)
     delays, offsets = _give(world, parameters, values)
@@ -179,7 +198,7 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
              for j, joint in enumerate(joints) if np.isfinite(commanded.command_position[0, j])]
     targets = world._targets.copy()
     shift = np.array([offsets.get(joint, 0.0) for joint in joints])
-    now = np.array(world.joint_positions[0])
+    now = _begin(world, commanded, columns, shift)
     place, speed, force = (np.full((len(commanded), len(joints)), np.nan) for _ in range(3))
     place[0], speed[0] = now[columns] + shift, 0.0
     at, first, steps = 1, 0, round(commanded.duration / step)
@@ -215,6 +234,22 @@ def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comman
                                     place[:, column], speed[:, column])
     return dataclasses.replace(commanded, position=place, velocity=speed, effort=force,
                                source="self-test")
+
+
+def _begin(world: World, commanded: Log, columns: list[int], shift: Array) -> Array:
+    """Where all joints begin: as in the asset, but for those that are outside of their limits
+    there, which would be thrown back: they begin where they are told to be. Shape (joints,)."""
+    now = np.array(world.joint_positions[0])
+    assert commanded.command_position is not None
+    moved = False
+    for j, column in enumerate(columns):
+        joint = next(each for each in world.scene.joints if each.path == commanded.joints[j])
+        aim = commanded.command_position[0, j] - shift[j]
+        if np.isfinite(aim) and not joint.lower <= now[column] <= joint.upper:
+            now[column], moved = aim, True
+    if moved:
+        world.set_joints(now[None], np.zeros((1, len(now))))
+    return now
 
 
 def _exerted(number: dict[str, float], commanded: Log, column: int, late: float, place: Array,

@@ -22,7 +22,7 @@ import numpy as np
 from ..errors import Error, InvalidError, check_file
 from ..sweep.cases import ExtraMissing
 from ..sweep.chunks import write_whole
-from .identifiable import (Around, Identifiability, judge, moments_of, prior_rows, residuals,
+from .identifiable import (DOUBT, Around, Identifiability, judge, moments_of, prior_rows, residuals,
                            scales_of, sensitivity, weights_of)
 from .intervals import sum_deviation
 from .linear import linear_start, scipy
@@ -259,18 +259,19 @@ def look(model: Model, parameters: list[Parameter]) -> Identifiability:
                    and each.high >= 0.1 * each.scale and each.family != "delay" else value
                    for each, value in zip(parameters, at)])
     _, jacobian = sensitivity(model, parameters, at, weights_of(model))
-    return judge(parameters, jacobian, at)
+    return judge(parameters, jacobian, at, DOUBT)
 
 
 def solve(model: Model, parameters: list[Parameter], *, solver: str = "gauss-newton",
-          seed: int = 0, state: str = "", shown: Shown | None = None) -> Solution:
-    """Fits. Ctrl-C ends it with the best that was found. Raises ExtraMissing, and errors of the
-    model."""
+          seed: int = 0, state: str = "", first: Array | None = None,
+          shown: Shown | None = None) -> Solution:
+    """Fits, from `first` on, shape (P,), or from what the log tells without a simulation. Ctrl-C
+    ends it with the best that was found. Raises ExtraMissing, and errors of the model."""
     optimize = scipy("optimize")
     fit = _Fit(model, parameters, shown or (lambda *_: None))
     fit.state = State(state, digest_of(model, parameters, solver, seed))
     known = fit.state.read(len(parameters))
-    first = fit.clipped(linear_start(model, parameters))
+    first = fit.clipped(linear_start(model, parameters) if first is None else first)
     start, values = known if known else (0, first)
     finished = True
     try:

@@ -5,6 +5,7 @@ What a row says is the same wherever it was made."""
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import dataclasses
 import importlib
@@ -12,7 +13,7 @@ import math
 import os
 import queue
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Protocol
 
 from .cases import Case, Cases, ExtraMissing
@@ -158,6 +159,14 @@ def run_on_ray(results: Results, chunks: Sequence[int], make_runner: MakeRunner,
     this machine that lives as long as the call. Each worker is an actor that keeps its models; one
     that dies is made anew and its chunk is done again. Rows are written here. Errors: ExtraMissing
     without Ray; those of a worker."""
+    with ray_cluster(address, workers) as ray:
+        _with_ray(ray, results, chunks, make_runner, workers, progress)
+
+
+@contextlib.contextmanager
+def ray_cluster(address: str | None = None, workers: int | None = None) -> Iterator[Any]:
+    """The module `ray`, joined to the cluster at an address, or to one of this machine with so many
+    workers, which ends with the block. Raises ExtraMissing without Ray."""
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # nothing is sent to anybody
     try:
         ray: Any = importlib.import_module("ray")
@@ -169,7 +178,7 @@ def run_on_ray(results: Results, chunks: Sequence[int], make_runner: MakeRunner,
         ray.init(include_dashboard=False if not address else None, log_to_driver=False,
                  logging_level="warning", **options)
     try:
-        _with_ray(ray, results, chunks, make_runner, workers, progress)
+        yield ray
     finally:
         if own:
             ray.shutdown()

@@ -158,6 +158,24 @@ TEST(Steering, JointParametersAct) {
   EXPECT_NEAR(driven->joint_state(0).velocity[0], 0.5, 1e-6);
 }
 
+// Friction holds a joint the sooner, the more it has to hold.
+TEST(Steering, AnArmatureThatIsSetIsOneOfTheScene) {
+  double velocities[2] = {};
+  for (const int at : {0, 1}) {
+    TestScene scene = arm(0);
+    scene.joints[0].friction = 0.4;
+    scene.joints[0].armature = at == 0 ? 20 : 0;
+    const auto driven = simulation(scene, kStep);
+    if (at == 1) {
+      expect_ok(driven->set_parameter({Parameter::JointArmature, 0, 0}, 20));
+    }
+    expect_ok(driven->set_joint_efforts(0, std::vector<double>{0.5}));
+    run(*driven, 0.5);
+    velocities[at] = driven->joint_state(0).velocity[0];
+  }
+  EXPECT_NEAR(velocities[1], velocities[0], 1e-9);
+}
+
 // A box on the ground under a push of 0.3 m g stays or slides by the friction that is set.
 TEST(Steering, FrictionOfOneColliderDecidesWhetherItSlides) {
   TestScene scene;

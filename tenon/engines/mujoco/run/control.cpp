@@ -4,8 +4,8 @@
 // Gravity of further scenes and wrenches share MuJoCo's forces on bodies, so both are written
 // together. Efforts of single coordinates are generalized forces. Those of a ball are turned from
 // frame 0 into the child, whose axes MuJoCo uses; those of a joint outside the tree become opposite
-// forces on both bodies at the origin of frame 1. A mass changes what MuJoCo derives from it at the
-// start, which is derived again; weights that compile() has set itself are put back.
+// forces on both bodies at the origin of frame 1. A mass or an armature changes what MuJoCo derives
+// from it at the start, which is derived again; weights that compile() has set itself are put back.
 #include "tenon/engines/mujoco/run/control.h"
 
 #include <algorithm>
@@ -86,21 +86,10 @@ void write_tree_efforts(const JointMap& map, std::span<const double> efforts, mj
   }
 }
 
-Result<void> write_mass(Index body, double mass, Model& model) {
-  BodyMap& map = model.bodies[body];
-  if (!(map.mass > 0)) {
-    return not_here({}, "the mass of a kinematic body moves nothing");
-  }
+// What MuJoCo derives from masses and armatures at the start, except weights that compile() has
+// set itself.
+Result<void> derive_again(Model& model) {
   mjModel& m = own_model(model);
-  const double ratio = mass / m.body_mass[map.id];
-  m.body_mass[map.id] = mass;
-  map.mass = mass;
-  for (int i = 0; i < 3; ++i) {
-    m.body_inertia[3 * map.id + i] *= ratio;
-  }
-  for (int i = 0; map.free_dof >= 0 && i < 6; ++i) {
-    m.dof_damping[map.free_dof + i] *= ratio;
-  }
   const std::vector<mjtNum> body_weights(m.body_invweight0, m.body_invweight0 + 2 * m.nbody);
   const std::vector<mjtNum> dof_weights(m.dof_invweight0, m.dof_invweight0 + m.nv);
   const double mean_inertia = m.stat.meaninertia;
@@ -120,6 +109,24 @@ Result<void> write_mass(Index body, double mass, Model& model) {
     m.stat.meaninertia = mean_inertia;
   }
   return {};
+}
+
+Result<void> write_mass(Index body, double mass, Model& model) {
+  BodyMap& map = model.bodies[body];
+  if (!(map.mass > 0)) {
+    return not_here({}, "the mass of a kinematic body moves nothing");
+  }
+  mjModel& m = own_model(model);
+  const double ratio = mass / m.body_mass[map.id];
+  m.body_mass[map.id] = mass;
+  map.mass = mass;
+  for (int i = 0; i < 3; ++i) {
+    m.body_inertia[3 * map.id + i] *= ratio;
+  }
+  for (int i = 0; map.free_dof >= 0 && i < 6; ++i) {
+    m.dof_damping[map.free_dof + i] *= ratio;
+  }
+  return derive_again(model);
 }
 
 // The surface of one collider becomes a kind of its own where there is none like it.
@@ -160,7 +167,8 @@ Result<void> write_dofs(const PhysicsScene& scene, const ParameterKey& key, doub
      : key.what == Parameter::JointFriction ? m.dof_frictionloss
                                             : m.dof_armature)[dof] = value;
   }
-  return {};
+  // How soon friction of the joint holds follows from its inertia.
+  return key.what == Parameter::JointArmature ? derive_again(model) : Result<void>();
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-constexpr double kNothingNew = 1e-9;  // of a row's own product: what is left of it is rounding
+constexpr double kNothingNew = 1e-9;  // of a row's own product: the rest is rounding
 
 /// Kinematic trees that equalities tie together, by the least of their numbers; -1 without any.
 class TiedTrees {
