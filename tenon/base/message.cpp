@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tenon/base/limits/fault_limits.h"
 #include "tenon/base/path.h"
 
 namespace tenon {
@@ -52,8 +53,8 @@ Message& Message::about(Path path, RelatedRole role, std::string file) {
 }
 
 void Message::relate(RelatedPrim prim) {
-  const bool is_absolute = prim.path.starts_with('/');
-  if (is_absolute && std::find(related_.begin(), related_.end(), prim) == related_.end()) {
+  const bool fits = prim.path.starts_with('/') && related_.size() < limits::kRelatedPrims;
+  if (fits && std::find(related_.begin(), related_.end(), prim) == related_.end()) {
     related_.push_back(std::move(prim));
   }
 }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/base/message.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/limits/fault_limits.h"
 #include "tenon/base/path.h"
 
 namespace tenon {
@@ -26,6 +29,14 @@ TEST(Message, NamesEachOnceAndNothingRelative) {
   message.about(body, RelatedRole::Body);
   EXPECT_EQ(message.text(), "</B> and </B> and <C><>");
   EXPECT_EQ(message.related().size(), 1u);
+}
+
+TEST(Message, NamesSoManyAtMost) {
+  Message message("the collider is in 5,000 groups");
+  for (int i = 0; i < 5000; ++i) {
+    message.about(Path::from("/G" + std::to_string(i)), RelatedRole::CollisionGroup);
+  }
+  EXPECT_EQ(message.related().size(), limits::kRelatedPrims);
 }
 
 TEST(Message, NamesPathsWithinLayers) {

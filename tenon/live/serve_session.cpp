@@ -3,14 +3,15 @@
 //
 // Three threads: the server, the session, and one for answers that take long. The server puts what
 // clients say into an inbox of bounded size, from which the thread of the session takes it; a
-// client that says more than fits is dropped by the server. What comes out of the session is handed
-// to the server, which is safe from any thread.
+// client that says more than its part is dropped by the server, and no other. What comes out of the
+// session is handed to the server, which is safe from any thread.
 #include "tenon/live/serve_session.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -21,8 +22,9 @@ namespace {
 
 using PaceClock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostWaiting = 4096;  // messages not yet looked at
-constexpr std::size_t kMostLate = 16;       // answers that are to be made
+constexpr std::size_t kMostWaiting = 4096;       // messages not yet looked at
+constexpr std::size_t kMostWaitingOfOne = 1024;  // of one client
+constexpr std::size_t kMostLate = 16;            // answers that are to be made
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
 constexpr auto kIdleTime = std::chrono::milliseconds(100);  // also between looks at files
 
@@ -54,8 +56,12 @@ class Inbox {
   bool put(serve::ClientEvent event) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (event.kind == serve::ClientEvent::Kind::Said && waiting_.events.size() >= kMostWaiting) {
-        return false;
+      if (event.kind == serve::ClientEvent::Kind::Said) {
+        std::size_t& own = waiting_of_[event.client];
+        if (own >= kMostWaitingOfOne || waiting_.events.size() >= kMostWaiting) {
+          return false;
+        }
+        ++own;
       }
       waiting_.events.push_back(std::move(event));
     }
@@ -76,6 +82,7 @@ class Inbox {
       return ended_ || !waiting_.events.empty() || !waiting_.answers.empty();
     });
     ended = ended_;
+    waiting_of_.clear();
     return std::exchange(waiting_, {});
   }
 
@@ -83,6 +90,7 @@ class Inbox {
   std::mutex mutex_;
   std::condition_variable filled_;
   Letters waiting_;
+  std::map<serve::Client, std::size_t> waiting_of_;  // messages
   bool ended_ = false;
 };
 

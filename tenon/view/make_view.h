@@ -13,7 +13,8 @@
 
 namespace tenon::view {
 
-/// The maximum contents of a view; anything beyond is skipped and noted.
+/// The maximum contents of a view, beside kImageSide and kImagePixels; anything beyond is skipped
+/// and noted.
 struct ViewLimits {
   std::size_t shapes = 200'000;           ///< things drawn
   std::size_t corners = 60'000'000;       ///< of triangles, of meshes that are kept
@@ -22,10 +23,17 @@ struct ViewLimits {
   std::size_t cameras = 100;              ///< that are listed
 };
 
+/// An image as it lies in a file.
+struct ImageFile {
+  std::string bytes;
+  std::size_t width = 0;   ///< [pixels] by its header; 0 where that does not say it
+  std::size_t height = 0;  ///< [pixels]
+};
+
 struct ViewOptions {
-  /// The bytes of an image by its resolved asset path; nothing where it may not or cannot be read.
-  /// Without it there are no images.
-  Function<std::optional<std::string>(const std::string& path)> read_image;
+  /// An image by its resolved asset path; nothing where it may not or cannot be read. Without it
+  /// there are no images.
+  Function<std::optional<ImageFile>(const std::string& path)> read_image;
   bool colliders = true;  ///< also what is touched
   ViewLimits limits{};
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -165,10 +166,10 @@ std::string cutout(const std::string& of_surface, const std::string& of_image,
          "rel material:binding = </r/m>\n}\n";
 }
 
-ViewOptions with_any_image() {
+ViewOptions with_any_image(std::size_t width = 4, std::size_t height = 4) {
   ViewOptions options;
-  options.read_image = [](const std::string&) {
-    return std::optional<std::string>("\x89PNG\r\n\x1a\n");
+  options.read_image = [width, height](const std::string&) {
+    return std::optional(ImageFile{"\x89PNG\r\n\x1a\n", width, height});
   };
   return options;
 }
@@ -188,6 +189,22 @@ TEST(MakeView, OpacityOfAnImageHasItsChannelScaleAndBias) {
   EXPECT_DOUBLE_EQ(look.opacity_texture->factor, -1);
   EXPECT_DOUBLE_EQ(look.opacity_texture->add, 1);
   EXPECT_EQ(view.images.size(), 1u);
+}
+
+TEST(MakeView, ImagesOfTooManyPixelsAreLeftOut) {
+  const std::string scene =
+      cutout("color3f inputs:diffuseColor.connect = </r/m/t.outputs:rgb>\n", "", "");
+  EXPECT_EQ(seen(scene, with_any_image(16384, 16384)).images.size(), 1u);
+  for (const auto& [width, height, why] :
+       {std::tuple(60000u, 60000u, "the image is too large: 60000 by 60000 pixels"),
+        std::tuple(1u, 16385u, "the image is too large: 1 by 16385 pixels"),
+        std::tuple(0u, 0u, "the header of the image does not say how large it is")}) {
+    const ViewScene view = seen(scene, with_any_image(width, height));
+    EXPECT_TRUE(view.images.empty());
+    EXPECT_FALSE(view.materials.at(0).color_texture);
+    ASSERT_EQ(view.notes.size(), 1u);
+    EXPECT_TRUE(view.notes[0].what.starts_with(why)) << view.notes[0].what;
+  }
 }
 
 TEST(MakeView, ImagesAreScaledTurnedMovedAndWrapped) {

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/limits/browser_limits.h"
 #include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::view {
@@ -293,18 +294,40 @@ std::optional<Index> Surfaces::image_at(const std::string& path, Path prim) {
   if (!is_new) {
     return at->second;
   }
-  std::optional<std::string> bytes = options_.read_image ? options_.read_image(path) : std::nullopt;
-  const std::string mime(bytes ? mime_type_of(*bytes) : "");
-  if (!bytes || mime.empty()) {
-    note(prim, bytes ? "the image is neither PNG nor JPEG" : "the image cannot be read");
-  } else if (bytes->size() > options_.limits.image_bytes - image_bytes_) {
-    note(prim, "all images together are too large; this one is not shown");
-  } else {
-    image_bytes_ += bytes->size();
-    at->second = static_cast<Index>(view_.images.size());
-    view_.images.push_back({path, mime, std::move(*bytes)});
+  std::optional<ImageFile> image = options_.read_image ? options_.read_image(path) : std::nullopt;
+  if (std::string reason = reason_against(image); !reason.empty()) {
+    note(prim, std::move(reason));
+    return std::nullopt;
   }
+  image_bytes_ += image->bytes.size();
+  image_pixels_ += image->width * image->height;
+  at->second = static_cast<Index>(view_.images.size());
+  const std::string mime(mime_type_of(image->bytes));
+  view_.images.push_back({path, mime, std::move(image->bytes)});
   return at->second;
+}
+
+/// Why an image is not shown; empty: it is.
+std::string Surfaces::reason_against(const std::optional<ImageFile>& image) const {
+  if (!image) {
+    return "the image cannot be read";
+  }
+  if (mime_type_of(image->bytes).empty()) {
+    return "the image is neither PNG nor JPEG";
+  }
+  if (image->width == 0 || image->height == 0) {
+    return "the header of the image does not say how large it is";
+  }
+  if (std::max(image->width, image->height) > limits::kImageSide) {
+    return "the image is too large: " + std::to_string(image->width) + " by " +
+           std::to_string(image->height) + " pixels, of at most " +
+           std::to_string(limits::kImageSide) + " along a side";
+  }
+  if (image->bytes.size() > options_.limits.image_bytes - image_bytes_ ||
+      image->width * image->height > limits::kImagePixels - image_pixels_) {
+    return "all images together are too large; this one is not shown";
+  }
+  return "";
 }
 
 std::optional<Index> Surfaces::of_display_color(const stage::Prim& prim) {

@@ -34,6 +34,7 @@ class Surfaces {
   void read_opacity_image(const stage::Prim& shader, ViewMaterial& look);
   std::optional<ViewTexture> texture_of(const stage::Prim& texture);
   std::optional<Index> image_at(const std::string& path, Path prim);
+  std::string reason_against(const std::optional<ImageFile>& image) const;
   void note(Path prim, std::string what);
 
   const ViewOptions& options_;
@@ -44,6 +45,7 @@ class Surfaces {
   std::map<std::array<float, 4>, Index> colors_;
   std::map<std::string, std::optional<Index>> images_;
   std::size_t image_bytes_ = 0;
+  std::size_t image_pixels_ = 0;
 };
 
 }  // namespace tenon::view

@@ -92,6 +92,16 @@ def merged_groups(count):
             "    }\n" + "\n".join(groups) + "\n}\n")
 
 
+def all_in_many_groups(count):
+    """As many colliders as groups, each of them in all groups."""
+    bodies = [f'    def Cube "b{i}" (prepend apiSchemas = [{BODY}])\n    {{\n'
+              f"        double3 xformOp:translate = ({3 * i}, 0, 0)\n"
+              '        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }'
+              for i in range(count)]
+    groups = [group(i, "rel collection:colliders:includes = </W>") for i in range(count)]
+    return HEAD + 'def Xform "W"\n{\n' + "\n".join(bodies + groups) + "\n}\n"
+
+
 def collections_of_collections(count):
     """Groups each of which includes the collection of the next one."""
     return HEAD + 'def Xform "W"\n{\n' + "\n".join(
@@ -273,6 +283,15 @@ def motors(count):
             + "</actuator></mujoco>\n")
 
 
+def meshes(count):
+    """Meshes below one prim, which each get a prim of their own."""
+    return HEAD + 'def Xform "W"\n{\n    def Xform "b"\n    {\n' + "\n".join(
+        f'        def Mesh "m{i}"\n        {{\n            int[] faceVertexCounts = [3]\n'
+        "            int[] faceVertexIndices = [0, 1, 2]\n"
+        "            point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n        }"
+        for i in range(count)) + "\n    }\n}\n"
+
+
 class Kind:
     """`behind` are the words behind the scene's name, or a function that makes them of a size."""
 
@@ -306,6 +325,7 @@ KINDS = (
     Kind("prims of each schema, checked", prims_of_each_schema, 20, "check"),
     Kind("what is composed, flattened", composed, 150, "cat", ("--flatten", "-o", "out.usda")),
     Kind("findings", bodies_with_faults, 100, "check"),
+    Kind("colliders in many groups", all_in_many_groups, 400, "check", (), 3.2),
     Kind("assignments of one edit", plain, 100, "set", assignments),
     Kind("masses of a chain", chain, 100, "set", masses),
     Kind("pairs with the root, as SRDF", with_one_more(pairs_with_the_root), 100, "convert",
@@ -325,6 +345,7 @@ KINDS = (
     Kind("packages that are missing", missing_packages, 200, "convert", ("out.usda",),
          file="scene.urdf"),
     Kind("actuators, in a folder", motors, 300, "convert", ("folder",), file="scene.xml"),
+    Kind("meshes of one prim, in a folder", meshes, 1500, "structure", ("-o", "folder")),
     Kind("filtered pairs of a chain", chain, 100, "pairs", pairs_beside_neighbours),
 )
 COLLECTED = re.compile(r"I +refs: +([\d,]+)")

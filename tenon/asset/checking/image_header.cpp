@@ -44,7 +44,7 @@ std::optional<check::simready::ImageFacts> jpeg_header(std::string_view bytes) {
       return check::simready::ImageFacts{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2),
                                          byte_at(bytes, at + 9) == 1};
     }
-    at += 2 + big_endian(bytes, at + 2, 2);
+    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);  // B.1.1.2: fill bytes
   }
   return std::nullopt;
 }

@@ -38,6 +38,8 @@ TEST(ImageHeader, SkipsSegmentsOfJpeg) {
   EXPECT_EQ(gray->width, 256U);
   EXPECT_EQ(gray->height, 5U);
   EXPECT_TRUE(gray->single_channel);
+  const std::string filled = bytes({0xFF, 0xD8, 0xFF, 0xFF, 0xFF, 0xE0, 0, 4, 0, 0});
+  EXPECT_TRUE(image_header(filled + bytes({0xFF, 0xC0, 0, 11, 8, 0, 5, 1, 0, 1, 0, 0})));
 }
 
 TEST(ImageHeader, DamagedHeadersSayNothing) {

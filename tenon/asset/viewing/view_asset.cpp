@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "tenon/asset/checking/image_header.h"
 #include "tenon/asset/physics_options.h"
 #include "tenon/asset/poses/start_pose.h"
 #include "tenon/asset_policy.h"
@@ -19,9 +20,14 @@ view::ViewScene view_of_asset(const stage::Stage& stage, const scene::PhysicsSce
   const bytes::ReadPolicy policy = policy_for(path, open);
   view::ViewOptions options;
   options.colliders = colliders;
-  options.read_image = [&policy](const std::string& image) -> std::optional<std::string> {
+  options.read_image = [&policy](const std::string& image) -> std::optional<view::ImageFile> {
     const auto bytes = policy.open(image);
-    return bytes ? std::optional<std::string>((*bytes)->text()) : std::nullopt;
+    if (!bytes) {
+      return std::nullopt;
+    }
+    const auto header = image_header((*bytes)->text());
+    return view::ImageFile{std::string((*bytes)->text()), header ? header->width : 0,
+                           header ? header->height : 0};
   };
   return view::make_view(stage, scene, options);
 }

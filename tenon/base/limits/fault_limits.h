@@ -8,6 +8,7 @@ namespace tenon::limits {
 
 inline constexpr std::size_t kTextFaults = 20;         ///< faults told about a text layer
 inline constexpr std::size_t kStageFindings = 10'000;  ///< of composing a stage
+inline constexpr std::size_t kRelatedPrims = 100;      ///< prims that one finding names
 
 /// Bytes that are looked at again, to find the items that findings of one text layer are about.
 inline constexpr std::size_t kPlaceWorkPerByte = 8;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
 
 namespace tenon::structure {
@@ -15,6 +16,7 @@ std::vector<Path> wrapped_meshes(const layer::Layer& content);
 
 /// Gives the meshes their own copies of the materials that are bound to them, in a scope of that
 /// name below the wrapper: what instances share can name nothing outside of itself.
-void localize_materials(layer::Layer& content, std::string_view scope);
+/// Errors: Limit "structure.materials" where that would be more than kMaterialCopies prims.
+Result<void> localize_materials(layer::Layer& content, std::string_view scope);
 
 }  // namespace tenon::structure

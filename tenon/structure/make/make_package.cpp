@@ -57,24 +57,10 @@ RoleSet roles_in(Role role) {
   }
 }
 
-/// Where a prim stood before it, or the closest one above it that did, moved.
-Path first_place(Path prim, const std::map<Path, Path>& moves) {
-  Path first = prim;
-  std::size_t closest = 0;
-  for (const auto& [from, to] : moves) {
-    const std::size_t depth = to.prefixes().size();
-    if (prim.has_prefix(to) && depth > closest) {
-      first = prim.replace_prefix(to, from);
-      closest = depth;
-    }
-  }
-  return first;
-}
-
 /// Wrappers and local materials: the same for all contents.
-void prepare(const MeshMoves& moves, Names names, Layer& content) {
+Result<void> prepare(const MeshMoves& moves, Names names, Layer& content) {
   content = moves.apply(content);
-  localize_materials(content, instance_material_scope(names));
+  return localize_materials(content, instance_material_scope(names));
 }
 
 View* view_of(std::vector<View>& views, std::string_view variant) {
@@ -144,10 +130,12 @@ class Prover {
 
   Result<void> prove(const View& view) const {
     TENON_TRY(const stage::Stage stage, open_view(std::string(kPhysicsSet), view.variant));
-    TENON_TRY(Layer found, content_of(stage));
-    const Layer wanted = with_collected_assets(view.content, wanted_.assets);
-    if (const auto where = compare_contents(wanted, found)) {
-      return differs("Physics=" + view.variant, *where, "the stage");
+    {
+      TENON_TRY(const Layer found, content_of(stage));  // as large as the asset
+      const Layer wanted = with_collected_assets(view.content, wanted_.assets);
+      if (const auto where = compare_contents(wanted, found)) {
+        return differs("Physics=" + view.variant, *where, "the stage");
+      }
     }
     if (view.role == Role::Base) {
       return {};  // has none
@@ -181,7 +169,7 @@ class Prover {
                                    [&](const View& at) { return at.variant == chosen; });
     const Role role = view == wanted_.views.end() ? Role::Base : view->role;
     Layer plain = other.content;
-    prepare(wanted_.moves, wanted_.names, plain);
+    TENON_CHECK(prepare(wanted_.moves, wanted_.names, plain));
     keep_roles(plain, roles_in(role));
     add_robot_metadata(plain, wanted_.order);
     if (role == Role::Base) {
@@ -222,12 +210,13 @@ class Maker {
     TENON_CHECK(give_wrappers());
     make_base();
     make_overs();
-    make_other_variants();
+    TENON_CHECK(make_other_variants());
     TENON_CHECK(make_files());
     make_interface();
     list_moves();
     assets_ = collect_assets(source_, options_.names, asset_.package, diagnostics_);
     TENON_CHECK(store_layers(asset_.package));
+    drop_parts();
     const Wanted wanted{source_,    sources_, views_,  runtimes_,     *moves_,
                         colliders_, order_,   assets_, options_.names};
     TENON_CHECK(Prover(asset_, wanted, physics_).run());
@@ -318,10 +307,10 @@ class Maker {
   Result<void> give_wrappers() {
     TENON_TRY(moves_, MeshMoves::of(unite(contents_of(views_))));
     for (View& view : views_) {
-      prepare(*moves_, options_.names, view.content);
+      TENON_CHECK(prepare(*moves_, options_.names, view.content));
     }
     for (RuntimeView& view : runtimes_) {
-      prepare(*moves_, options_.names, view.content);
+      TENON_CHECK(prepare(*moves_, options_.names, view.content));
     }
     if (!runtimes_.empty()) {
       drop_material_physics(views_.front().content);
@@ -410,15 +399,15 @@ class Maker {
     }
   }
 
-  void make_other_variants() {
+  Result<void> make_other_variants() {
     if (sources_.others.empty()) {
-      return;
+      return {};
     }
     Layer weak = chosen().content;
-    prepare(*moves_, options_.names, weak);
+    TENON_CHECK(prepare(*moves_, options_.names, weak));
     for (const OtherVariant& other : sources_.others) {
       Layer strong = other.content;
-      prepare(*moves_, options_.names, strong);
+      TENON_CHECK(prepare(*moves_, options_.names, strong));
       order_like(strong, base_);
       const std::string name = file_of_variant(other.set, other.variant);
       Layer over = difference(weak, strong, identifier_in_package(name));
@@ -429,6 +418,7 @@ class Maker {
         other_files_.emplace(name, std::move(over));
       }
     }
+    return {};
   }
 
   std::string file_of(const View& view) const {
@@ -535,16 +525,17 @@ class Maker {
 
   /// Below the default prim came what was beside it, then links moved, then meshes got wrappers.
   void list_moves() {
-    const std::map<Path, Path> links = links_ ? links_->all() : std::map<Path, Path>();
-    for (const auto& [from, to] : links) {
-      asset_.moved.emplace(first_place(from, sources_.moved), to);
+    const std::map<Path, Path> moved = links_ ? links_->all() : std::map<Path, Path>();
+    const std::map<Path, Path> links = first_places(moved);
+    const std::map<Path, Path> tops = first_places(sources_.moved);
+    for (const auto& [from, to] : moved) {
+      asset_.moved.emplace(first_place(from, tops), to);
     }
     for (const auto& [from, to] : united_) {
-      asset_.moved.emplace(first_place(first_place(from, links), sources_.moved),
-                           moves_->moved(to));
+      asset_.moved.emplace(first_place(first_place(from, links), tops), moves_->moved(to));
     }
     for (const auto& [from, to] : moves_->all()) {
-      asset_.moved.emplace(first_place(first_place(from, links), sources_.moved), to);
+      asset_.moved.emplace(first_place(first_place(from, links), tops), to);
     }
     for (const auto& [from, to] : sources_.moved) {
       asset_.moved.emplace(from, links_ ? links_->moved(to) : to);
@@ -567,6 +558,15 @@ class Maker {
       }
     }
     return views_.back().over ? views_.back().variant : std::string(kNoVariant);
+  }
+
+  /// Layers that the proof does not need.
+  void drop_parts() {
+    for (SourceView& view : sources_.physics) {
+      view.content = Layer("");
+    }
+    base_ = views_.front().plain = Layer("");
+    other_files_.clear();
   }
 
   const AssetSource& source_;

@@ -449,6 +449,27 @@ def Xform "robot" ( inherits = </part> ) { }
   expect_idempotent(asset);
 }
 
+TEST(MakePackage, CopiesOfMaterialsHaveALimit) {
+  const auto text = [](int meshes) {
+    std::string body = "def Material \"m\" {\n";
+    for (int i = 0; i < 1000; ++i) {
+      body += "def Shader \"s" + std::to_string(i) + "\" { }\n";
+    }
+    body += "}\n";
+    for (int i = 0; i < meshes; ++i) {
+      body += mesh("a" + std::to_string(i), kA, "\"MaterialBindingAPI\"",
+                   "rel material:binding = </robot/m>");
+    }
+    return kHead + "def Xform \"robot\" {\n" + body + "}\n";
+  };
+  EXPECT_FALSE(made(source_of(text(2))).package.files.empty());
+  Diagnostics diagnostics;
+  const auto refused = make_package(source_of(text(300)), {}, diagnostics);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code(), ErrorCode::Limit);
+  EXPECT_EQ(refused.error().diagnostic().rule, "structure.materials");
+}
+
 TEST(MakePackage, NeedsADefaultPrim) {
   Diagnostics diagnostics;
   const auto asset =

@@ -71,6 +71,31 @@ Result<void> check_colliders(const Layer& content) {
   return {};
 }
 
+/// The child of a possible wrapper (an Xform, not at the top, and no part in the simulation) beside
+/// which there are materials alone; empty: there is none.
+Path lone_child(const Layer& content, Path wrapper) {
+  Path lone;
+  if (type_of(content, wrapper) != "Xform" || wrapper.parent().is_absolute_root() ||
+      is_simulated(content, wrapper)) {
+    return lone;
+  }
+  for (const Path& child : child_prims(content, wrapper)) {
+    if (!holds_materials(content, child)) {
+      if (!lone.empty()) {
+        return {};
+      }
+      lone = child;
+    }
+  }
+  return lone;
+}
+
+/// The mesh, alone below its parent, can stay there.
+bool fits_wrapper(const Layer& content, Path mesh) {
+  return !has_transform(content, mesh) && has_only_subsets(content, mesh) &&
+         !has_api(content, mesh, "PhysicsRigidBodyAPI");
+}
+
 }  // namespace
 
 bool holds_materials(const Layer& content, Path prim) {
@@ -82,18 +107,6 @@ bool holds_materials(const Layer& content, Path prim) {
   return type == "Scope" && !children.empty() &&
          std::all_of(children.begin(), children.end(),
                      [&](Path child) { return type_of(content, child) == "Material"; });
-}
-
-bool is_wrapped(const Layer& content, Path mesh) {
-  const Path wrapper = mesh.parent();
-  if (type_of(content, wrapper) != "Xform" || wrapper.parent().is_absolute_root() ||
-      is_simulated(content, wrapper) || has_transform(content, mesh) ||
-      !has_only_subsets(content, mesh) || has_api(content, mesh, "PhysicsRigidBodyAPI")) {
-    return false;
-  }
-  const std::vector<Path> children = child_prims(content, wrapper);
-  return std::all_of(children.begin(), children.end(),
-                     [&](Path child) { return child == mesh || holds_materials(content, child); });
 }
 
 void copy_geometry(const Layer& content, Path mesh, Layer& target, Path to) {
@@ -121,12 +134,17 @@ Result<MeshMoves> MeshMoves::of(const Layer& united) {
   MeshMoves moves;
   GeometryKeys keys;
   std::map<std::string, std::string> names;  // of geometries
+  std::map<Path, Path> lone;                 // children, by their parents
   for (const Path& prim : prims_below(united)) {
     if (type_of(united, prim) != "Mesh") {
       continue;
     }
     const auto known = names.emplace(keys.key(united, prim), prim.name().str());
-    if (!is_wrapped(united, prim)) {
+    const auto [child, first] = lone.try_emplace(prim.parent());
+    if (first) {
+      child->second = lone_child(united, prim.parent());
+    }
+    if (child->second != prim || !fits_wrapper(united, prim)) {
       moves.add(united, prim, known.first->second);
     }
   }
@@ -138,7 +156,7 @@ void MeshMoves::add(const Layer& united, Path mesh, const std::string& name) {
   move.body = has_api(united, mesh, "PhysicsRigidBodyAPI");
   for (const Path& child : child_prims(united, mesh)) {
     if (type_of(united, child) == "GeomSubset") {
-      move.subsets.push_back(child);
+      move.subsets.insert(child);
     }
   }
   const bool alone = has_only_subsets(united, mesh) && !is_simulated(united, mesh);
@@ -160,16 +178,15 @@ std::map<Path, Path> MeshMoves::all() const {
 }
 
 Path MeshMoves::moved(Path path) const {
-  for (Path at = path.prim(); at.is_prim(); at = at.parent()) {
+  Path below;  // the child of `at` on the way
+  for (Path at = path.prim(); at.is_prim(); below = at, at = at.parent()) {
     const auto found = moves_.find(at);
     if (found == moves_.end()) {
       continue;
     }
     const Move& move = found->second;
-    for (const Path& subset : move.subsets) {
-      if (path.has_prefix(subset)) {
-        return path.replace_prefix(at, move.mesh);
-      }
+    if (move.subsets.contains(below)) {
+      return path.replace_prefix(at, move.mesh);
     }
     const bool own = path.prim() == at && !(path.is_property() && is_transform(path.name()));
     return own ? path.replace_prefix(at, move.mesh) : path;

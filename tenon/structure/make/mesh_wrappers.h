@@ -3,8 +3,8 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "tenon/base/result.h"
 #include "tenon/layer/layer.h"
@@ -13,6 +13,7 @@
 namespace tenon::structure {
 
 /// In the structure each mesh stands alone below an Xform, its wrapper, which can be an instance.
+/// A wrapper has this mesh and its materials below it, and no part in the simulation.
 /// Which meshes of a content have none yet, and where they come.
 class MeshMoves {
  public:
@@ -37,7 +38,7 @@ class MeshMoves {
     Path wrapper;
     Path mesh;
     bool body = false;
-    std::vector<Path> subsets;  // of the mesh, which move along
+    std::set<Path> subsets;  // of the mesh, which move along
   };
 
   void add(const layer::Layer& united, Path mesh, const std::string& name);
@@ -46,9 +47,6 @@ class MeshMoves {
   std::map<Path, Move> moves_;
 };
 
-/// The parent of a mesh is a wrapper: an Xform with this mesh and its materials below it, and no
-/// part in the simulation.
-bool is_wrapped(const layer::Layer& content, Path mesh);
 /// The scope or prim holds materials and nothing else.
 bool holds_materials(const layer::Layer& content, Path prim);
 

@@ -55,6 +55,19 @@ bool holds_mesh(const Layer& content, Path prim) {
                      [&](Path path) { return type_of(content, path) == "Mesh"; });
 }
 
+/// Takes out what a prim says and all below it; it stays in its place among its siblings.
+void empty_prim(Layer& layer, Path prim) {
+  for (const Path& path : prims_below(layer, prim)) {
+    for (const Path& property : properties_of(layer, path)) {
+      layer.erase(property);
+    }
+    if (path != prim) {
+      layer.erase(path);
+    }
+  }
+  layer.find(prim)->set_field_list({});
+}
+
 bool is_bare(const Layer& content, Path prim) {
   return child_prims(content, prim).empty() && properties_of(content, prim).empty();
 }
@@ -109,10 +122,8 @@ void put_to_sleep(Layer& content, const std::set<Path>& prims) {
       continue;
     }
     const Token type = type_of(content, prim);
-    const std::vector<Token> names = content.children(prim.parent(), fields::primChildren);
-    remove_tree(content, prim);
+    empty_prim(content, prim);
     define_prim(content, prim, type).set(fields::active, false);
-    make_prim(content, prim.parent()).set(fields::primChildren, names);
   }
 }
 
@@ -122,11 +133,11 @@ void fill_sleeping(Layer& base, const Layer& view, const std::set<Path>& collide
     if (!is_active(view, prim)) {
       continue;
     }
-    if (base.has(prim)) {
+    const bool sleeps = base.has(prim);
+    if (sleeps) {
       if (is_active(base, prim) || !is_bare(base, prim)) {
         continue;
       }
-      remove_tree(base, prim);
     } else if (!base.has(prim.parent()) || !holds_mesh(view, prim)) {
       continue;
     }
@@ -134,9 +145,18 @@ void fill_sleeping(Layer& base, const Layer& view, const std::set<Path>& collide
       keep_roles(without_physics.emplace(view), RoleSet());
     }
     const Layer& from = colliders.contains(prim) ? view : *without_physics;
-    if (from.has(prim)) {
-      copy_tree(from, prim, base, prim);
-      make_prim(base, prim).set(fields::active, false);
+    if (!from.has(prim)) {
+      if (sleeps) {
+        remove_tree(base, prim);
+      }
+      continue;
+    }
+    if (sleeps) {
+      empty_prim(base, prim);
+    }
+    copy_tree(from, prim, base, prim);
+    make_prim(base, prim).set(fields::active, false);
+    if (!sleeps) {
       place_child_like(base, prim, view);
     }
   }

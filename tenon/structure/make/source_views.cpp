@@ -207,4 +207,21 @@ Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnosti
   return views;
 }
 
+std::map<Path, Path> first_places(const std::map<Path, Path>& moves) {
+  std::map<Path, Path> places;
+  for (const auto& [from, to] : moves) {
+    places.emplace(to, from);
+  }
+  return places;
+}
+
+Path first_place(Path prim, const std::map<Path, Path>& places) {
+  for (Path at = prim; !at.empty() && !at.is_absolute_root(); at = at.parent()) {
+    if (const auto found = places.find(at); found != places.end()) {
+      return prim.replace_prefix(at, found->second);
+    }
+  }
+  return prim;
+}
+
 }  // namespace tenon::structure

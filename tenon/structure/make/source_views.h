@@ -44,4 +44,10 @@ struct SourceViews {
 /// switched off, then under each variant of these with the chosen physics.
 Result<SourceViews> read_views(const AssetSource& source, Diagnostics& diagnostics);
 
+/// Old places by new ones; of two that came to one place the first.
+std::map<Path, Path> first_places(const std::map<Path, Path>& moves);
+/// Where a prim stood before it, or the closest one above it that did, moved. `places`: of
+/// `first_places`.
+Path first_place(Path prim, const std::map<Path, Path>& places);
+
 }  // namespace tenon::structure
