@@ -5,8 +5,10 @@
 // far apart tell of a shape in another place or unit. Of others nothing is said, since many
 // colliders cover a part of a body; in 61 published robots with 805 such bodies the widest gap
 // is a fifth of the larger box, at the hips of a quadruped.
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
+#include <vector>
 
 #include "tenon/check/extents.h"
 #include "tenon/check/simready/reading.h"
@@ -134,6 +136,12 @@ double gap_between(const Box& a, const Box& b) {
   return gap;
 }
 
+/// What collides where it is drawn cannot be away from that.
+bool is_drawn_itself(const Subject& subject, scene::Index collider) {
+  const stage::Prim prim = subject.stage.prim(subject.scene.colliders[collider].path);
+  return prim && simready::is_rendered(prim) && !simready::is_invisible(prim);
+}
+
 }  // namespace
 
 void check_away_from_visual(const Subject& subject, Reporter& report) {
@@ -142,11 +150,13 @@ void check_away_from_visual(const Subject& subject, Reporter& report) {
   for (scene::Index i = 0; i < scene.bodies.size(); ++i) {
     const scene::Body& body = scene.bodies[i];
     const stage::Prim prim = subject.stage.prim(body.path);
-    if (!prim || subject.colliders_of_body[i].empty()) {
+    const std::vector<scene::Index>& colliders = subject.colliders_of_body[i];
+    const auto is_drawn = [&](scene::Index at) { return is_drawn_itself(subject, at); };
+    if (!prim || colliders.empty() || std::any_of(colliders.begin(), colliders.end(), is_drawn)) {
       continue;
     }
     Box solid;
-    for (const scene::Index collider : subject.colliders_of_body[i]) {
+    for (const scene::Index collider : colliders) {
       const auto [low, high] = world_bounds(scene, scene.colliders[collider]);
       solid.add(low);
       solid.add(high);
@@ -154,11 +164,10 @@ void check_away_from_visual(const Subject& subject, Reporter& report) {
     const Box seen = solid.is_usable() ? drawn.of(prim) : Box{};
     const double gap = seen.is_usable() ? gap_between(solid, seen) : -kInfinity;
     if (gap > kApart * std::fmax(solid.diagonal(), seen.diagonal())) {
-      const scene::Index first = subject.colliders_of_body[i].front();
       Message message = "the colliders of the body are " + digits(gap) +
                         " m away from what is drawn of it: it touches where nothing is seen";
       message.about(body.path, RelatedRole::Body);
-      report.at(subject.stage.prim(scene.colliders[first].path), message,
+      report.at(subject.stage.prim(scene.colliders[colliders.front()].path), message,
                 "move the colliders or the shapes that are drawn, whichever are in another place "
                 "or unit");
     }

@@ -183,7 +183,9 @@ def faults_of_checking(place, hand):
 def faults_of_environments(place, hand):
     output = run(os.path.join(place, "environments"), hand + "/inspire_hand.usda").stdout
     positions = [number(output, f"environment {i}") for i in range(16)]
-    if "environments: 16, failed: 0" not in output or positions != sorted(set(positions)):
+    # The stiffest reach the limit of their velocity, and are as far as each other.
+    if ("environments: 16, failed: 0" not in output or positions != sorted(positions) or
+            len(set(positions)) < 8):
         yield f"environments: stiffer drives are not faster: {positions}"
 
 
