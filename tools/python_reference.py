@@ -10,7 +10,8 @@ import os
 import textwrap
 
 # Modules of python/tenon_usd in the order of the page; what each is called there.
-MODULES = (("functions", "tenon_usd"), ("world", "tenon_usd"),
+MODULES = (("functions", "tenon_usd"), ("tuning", "tenon_usd"), ("pages", "tenon_usd"),
+           ("world", "tenon_usd"),
            ("dynamics", "tenon_usd.dynamics"), ("errors", "tenon_usd.errors"),
            ("options", "tenon_usd.options"), ("gym", "tenon_usd.gym"),
            ("actuators", "tenon_usd.actuators"), ("draws", "tenon_usd.draws"),

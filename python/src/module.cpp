@@ -7,6 +7,7 @@
 #include "opened_stage.h"
 #include "options.h"
 #include "overlaps.h"
+#include "page_functions.h"
 #include "physics.h"
 #include "scene_dynamics.h"
 #include "values.h"
@@ -25,4 +26,5 @@ NB_MODULE(_tenon, module) {
   tenon::python::bind_batch(module);
   tenon::python::bind_functions(module);
   tenon::python::bind_drive_functions(module);
+  tenon::python::bind_page_functions(module);
 }

@@ -59,6 +59,7 @@ from .functions import (
     undo,
     where,
 )
+from .pages import view
 from .tuning import colliders, tune
 
 if TYPE_CHECKING:
@@ -106,6 +107,7 @@ __all__ = [
     "structure",
     "tune",
     "undo",
+    "view",
     "where",
 ]
 

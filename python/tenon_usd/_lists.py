@@ -150,3 +150,14 @@ def html_of_stage(stage: Any) -> str:
             ("prims", len(stage.prims)), ("layers", len(stage.layers))]
     found = stage.diagnostics
     return table(["", ""], rows, "Stage") + (html_of_findings(found) if found else "")
+
+
+def html_of_world(world: Any) -> str:
+    """What a world consists of, and how far it is."""
+    rows = [("environments", world.envs), ("engine", f"{world.engine} {world.engine_version}"),
+            ("time step [s]", f"{world.time_step:g}"),
+            ("time [s]", f"{world.time.min():g} to {world.time.max():g}"),
+            ("bodies", len(world.body_names)), ("joint coordinates", len(world.joint_names)),
+            ("drives", len(world.drive_names)), ("outputs", ", ".join(world.outputs) or "none"),
+            ("stand still", sum(failure is not None for failure in world.failures()))]
+    return table(["", ""], rows, "World")

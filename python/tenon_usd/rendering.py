@@ -5,6 +5,7 @@
     from tenon_usd.rendering import Renderer
 
     picture = Renderer(world).draw(0)           # (480, 640, 3), uint8
+    film = world.render_video(2.0)              # (frames, 480, 640, 3), by the world itself
 
 Bodies are drawn where the world has them, whichever engine moves them; what they look like is what
 World.to_mjcf() says. Without a display set MUJOCO_GL=egl or MUJOCO_GL=osmesa first, as MuJoCo asks.
@@ -19,10 +20,14 @@ from typing import Any, SupportsIndex
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import seconds
 from .errors import ExportWarning, MissingError
 from .world import World
 
 Picture = npt.NDArray[np.uint8]
+Depth = npt.NDArray[np.float32]
+Bodies = npt.NDArray[np.int32]
+MAX_FRAMES = 10_000
 INSTALL = "pip install 'tenon-usd[render]'"
 
 
@@ -67,6 +72,34 @@ class Renderer:
 
     def draw(self, env: SupportsIndex = 0) -> Picture:
         """Environment `env` now, shape (height, width, 3)."""
+        picture: Picture = self._drawn(env)
+        return picture
+
+    def depth(self, env: SupportsIndex = 0) -> Depth:
+        """How far what is seen is from the camera's plane [m], shape (height, width), float32."""
+        self._renderer.enable_depth_rendering()
+        try:
+            depth: Depth = self._drawn(env)
+        finally:
+            self._renderer.disable_depth_rendering()
+        return depth
+
+    def segmentation(self, env: SupportsIndex = 0) -> Bodies:
+        """The bodies that are seen, as indices of World.body_names, shape (height, width); -1 for
+        what is no body: the ground, the air."""
+        self._renderer.enable_segmentation_rendering()
+        try:
+            seen = self._drawn(env)
+        finally:
+            self._renderer.disable_segmentation_rendering()
+        body_of = np.full(self._model.nbody, -1, dtype=np.int32)
+        for at, body in self._bodies:
+            body_of[at] = body
+        geoms = np.where(seen[..., 1] == int(self._mujoco.mjtObj.mjOBJ_GEOM), seen[..., 0], -1)
+        bodies: Bodies = np.where(geoms >= 0, body_of[self._model.geom_bodyid[geoms]], -1)
+        return bodies.astype(np.int32)
+
+    def _drawn(self, env: SupportsIndex) -> Any:
         poses = self.world.body_poses[self.world._env(env)]
         data, mujoco = self._data, self._mujoco
         for at, body in self._bodies:
@@ -76,8 +109,7 @@ class Renderer:
         for kind in ("geom", "site", "cam"):
             self._carry(kind)
         self._renderer.update_scene(self._data, camera=self._camera)
-        picture: Picture = self._renderer.render()
-        return picture
+        return self._renderer.render()
 
     def close(self) -> None:
         """Gives the drawing context back."""
@@ -138,6 +170,39 @@ class Renderer:
         return free
 
 
+def still(world: World, env: SupportsIndex = 0, *, camera: str | None = None,
+          size: tuple[int, int] = (640, 480), **options: Any) -> Picture:
+    """One picture of an environment now, of `size` (width, height) [pixels]; `camera` and `options`
+    are those of Renderer."""
+    renderer = Renderer(world, camera=camera, width=size[0], height=size[1], **options)
+    try:
+        return renderer.draw(env)
+    finally:
+        renderer.close()
+
+
+def video(world: World, duration: float, env: SupportsIndex = 0, *, fps: float = 30.0,
+          camera: str | None = None, size: tuple[int, int] = (640, 480), **options: Any) -> Picture:
+    """Steps a world for `duration` [s] from the state that it is in, and draws environment `env`
+    `fps` times a second: shape (frames, height, width, 3). The rest as still()."""
+    count = int(seconds("duration", duration) * fps + 1e-9) + 1
+    if not (fps > 0 and count <= MAX_FRAMES):
+        raise ValueError(f"duration {duration!r} with fps {fps!r}; expected fps above 0 and at "
+                         f"most {MAX_FRAMES} frames")
+    renderer = Renderer(world, camera=camera, width=size[0], height=size[1], **options)
+    try:
+        frames, done = [renderer.draw(env)], 0
+        for frame in range(1, count):
+            steps = round(frame / fps / world.time_step) - done
+            if steps:
+                world.step(steps)
+            done += steps
+            frames.append(renderer.draw(env))
+        return np.stack(frames)
+    finally:
+        renderer.close()
+
+
 class Window:
     """Shows pictures in a window of pygame. Raises MissingError without it."""
 
@@ -165,4 +230,4 @@ class Window:
             self._screen = None
 
 
-__all__ = ["Renderer", "Window"]
+__all__ = ["Renderer", "Window", "still", "video"]

@@ -21,7 +21,7 @@ from . import _tenon
 from ._arrays import (
     checked_poses, counted, environments, finite, index, locked, named, place, seconds, spread,
     texts)
-from ._lists import no_such, table
+from ._lists import html_of_world, no_such
 from .errors import Error, ExportWarning, InvalidError, NotFoundError, UnstableError
 from .options import OpenOptions, PathLike, arguments_of, path_of
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from ._tenon import Diagnostic, PhysicsScene, Stage
     from .gpu import MjxBatch, NewtonBatch, WarpBatch
+    from .rendering import Picture
 
 Array = npt.NDArray[np.float64]
 OUTPUTS = ("contacts", "efforts", "reactions", "accelerations", "work", "sensors")
@@ -494,8 +495,7 @@ class World:
     def model(self) -> Any:
         """A mujoco.MjModel of the user's own mujoco, made from to_mjcf(): a new one at each call.
 
-        Raises MissingError where mujoco is not installed.
-        """
+        Raises MissingError where mujoco is not installed."""
         try:
             import mujoco  # type: ignore[import-not-found, import-untyped, unused-ignore]
         except ImportError as reason:
@@ -522,7 +522,6 @@ class World:
     def to_warp(self, envs: int | None = None) -> WarpBatch:
         """A batch of MuJoCo Warp that begins where this world is, on the GPU where there is one;
         `envs` environments, else as many as here. See tenon_usd.gpu.
-
         What it loses is an ExportWarning and in its `lost`. Raises MissingError without
         mujoco_warp, UnsupportedError for models that it does not take.
         """
@@ -544,12 +543,24 @@ class World:
 
         return NewtonBatch(self, envs)
 
+    def render(self, camera: str | None = None, size: tuple[int, int] = (640, 480),
+               env: SupportsIndex = 0, **options: Any) -> Picture:
+        """An environment now: shape (height, width, 3), `size` is (width, height). `options` are
+        those of tenon_usd.rendering.Renderer, which has depth and bodies too."""
+        from .rendering import still
+
+        return still(self, env, camera=camera, size=size, **options)
+
+    def render_video(self, duration: float, env: SupportsIndex = 0, **options: Any) -> Picture:
+        """Steps for `duration` [s] and draws, as tenon_usd.rendering.video."""
+        from .rendering import video
+
+        return video(self, duration, env, **options)
+
     def _source(self) -> Stage:
         """The stage that the world was made of."""
         return self._asset if isinstance(self._asset, _tenon.Stage) else _tenon.open_stage(
             path_of(self._asset), arguments_of(self._open_options))
-
-    # ---- the rest
 
     def __repr__(self) -> str:
         return (
@@ -560,18 +571,7 @@ class World:
 
     def _repr_html_(self) -> str:
         """A table for notebooks."""
-        rows = [
-            ("environments", self.envs),
-            ("engine", f"{self.engine} {self.engine_version}"),
-            ("time step [s]", f"{self.time_step:g}"),
-            ("time [s]", f"{self.time.min():g} to {self.time.max():g}"),
-            ("bodies", len(self.body_names)),
-            ("joint coordinates", len(self.joint_names)),
-            ("drives", len(self.drive_names)),
-            ("outputs", ", ".join(self.outputs) or "none"),
-            ("stand still", sum(failure is not None for failure in self.failures())),
-        ]
-        return table(["", ""], rows, "World")
+        return html_of_world(self)
 
     def __copy__(self) -> NoReturn:
         raise TypeError(_NO_COPY)

@@ -333,6 +333,34 @@ class Pictures(Environments):
             self.assertGreater(bright[1][1], bright[0][1] + 5)
             renderer.close()
 
+    def test_depth_bodies_and_films(self):
+        world = self.pendulum(1).world
+        renderer = self.renderer(world, width=64, height=48, azimuth=90, elevation=0)
+        if renderer is None:
+            self.skipTest("no OpenGL for MuJoCo here (MUJOCO_GL)")
+        picture = renderer.draw()
+        bodies, depth = renderer.segmentation(), renderer.depth()
+        np.testing.assert_array_equal(renderer.draw(), picture)  # as before
+        self.assertEqual((bodies.dtype, depth.dtype), (np.int32, np.float32))
+        self.assertEqual(set(np.unique(bodies)), {-1, 0})
+        ball = bodies == 0
+        # Seen along its distance, the ball is 0.4 m deep and the nearest that there is.
+        self.assertLess(np.ptp(depth[ball]), 0.25)
+        self.assertGreater(np.ptp(depth[ball]), 0.1)
+        self.assertLess(depth[ball].max(), depth[~ball].min())
+        renderer.close()
+        options = {"size": (64, 48), "azimuth": 90, "elevation": 0}
+        np.testing.assert_array_equal(world.render(**options), picture)
+        world.set_joints([[0.5]])
+        begin = float(world.time[0])
+        film = world.render_video(0.5, fps=10, **options)
+        self.assertEqual(film.shape, (6, 48, 64, 3))
+        self.assertAlmostEqual(float(world.time[0]), begin + 0.5, 6)
+        self.assertTrue(all(np.abs(film[i].astype(int) - film[i + 1]).max() > 50 for i in range(5)))
+        for wrong in ({"duration": -1}, {"duration": 1, "fps": 0}, {"duration": 1e6}):
+            with self.assertRaises(ValueError, msg=wrong):
+                world.render_video(**wrong)
+
     def test_modes(self):
         self.assertEqual(GraspEnv.metadata["render_modes"], ["human", "rgb_array"])
         self.assertIsNone(self.pendulum().render())

@@ -71,12 +71,13 @@ class Command(unittest.TestCase):
 def documented():
     """(name, object) of everything public: functions, classes, their methods and properties."""
     from tenon_usd import (
-        actuators, draws, dynamics, errors, functions, log, observations, options, recording,
+        actuators, draws, dynamics, errors, functions, log, observations, options, pages, recording,
         rendering, tables, text, world)
     from tenon_usd.tasks import task
 
     for module in (tenon, tenon._tenon, actuators, draws, dynamics, errors, functions, log,
-                   observations, options, recording, rendering, tables, task, text, world):
+                   observations, options, pages, recording, rendering, tables, task, text,
+                   world):
         for name, one in vars(module).items():
             own = getattr(one, "__module__", "").startswith("tenon_usd") or (
                 getattr(one, "__module__", "") == "_tenon")
