@@ -165,13 +165,14 @@ AUTHORING = {
 OTHERS = {
     "bake": "tenon_usd.recording takes the motion of a World",
     "bench": "a World counts what it steps",
-    "benchmark": "verdicts on whole assets are the command's", "compare": "compare", "completion": "of a shell",
-    "diff": "diff", "doctor": "doctor", "dump": "Stage.prims and Prim read the same",
+    "benchmark": "verdicts on whole assets are the command's", "compare": "compare",
+    "completion": "of a shell", "diff": "diff", "doctor": "doctor",
+    "dump": "Stage.prims and Prim read the same",
     "dump-index": "Prim.arcs and Stage.where read the same",
     "excite": "tenon_usd.identify has it", "explain": "explain", "help": "help() of Python",
     "identify": "tenon_usd.identify has it", "inertia": "Dynamics", "info": "info",
     "manual": "of a shell", "physics": "physics", "record": "tenon_usd.rendering draws a World",
-    "report": "a page for browsers", "sim": "World", "sweep": "tenon_usd.sweep has it",
+    "report": "view", "sim": "World", "sweep": "tenon_usd.sweep has it",
     "test-runner": "of conformance suites", "tree": "Stage.tree", "version": "__version__",
     "view": "a page for browsers", "where": "where",
 }

@@ -134,6 +134,7 @@ OF_VERBS = {
             "--principal-axes": "1,0,0,0", "--velocity": "1,0,0", "--angular-velocity": "1,0,0",
             "--gravity-direction": "0,0,1", "--axis": "X", "--file-up": "Z", "--prim": "/World"},
     "bench": {"--output": "x"},
+    "benchmark": {"--set": HINGE + ".drive:angular:physics:stiffness=3"},
     "compare": {"--output": "gaps.json", "--engines": "mujoco:heavy,mujoco"},
     "check": {"--profile": "isaac-3.0"},
     "convert": {"--self-collision": "on", "--conflicts": "edits"},
