@@ -11,9 +11,11 @@ const root = "/inspire_hand";
 const hinge = `${root}/Physics/right_index_1_joint`;
 const nameOf = (path) => path.slice(path.lastIndexOf("/") + 1);
 
-/** All text below a folder. */
+/** All text below a folder, without the files of a save that is on its way. */
 function content(folder) {
-  const names = readdirSync(folder, { recursive: true, withFileTypes: true }).filter((one) => one.isFile());
+  const names = readdirSync(folder, { recursive: true, withFileTypes: true }).filter(
+    (one) => one.isFile() && !one.name.startsWith(".tenon-"),
+  );
   return names
     .map((one) => join(one.parentPath, one.name))
     .sort()
