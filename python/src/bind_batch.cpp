@@ -312,7 +312,7 @@ bool is_at(const engines::BodyState& state, const double* pose, const double* ve
          std::equal(held.begin() + 7, held.end(), velocity);
 }
 
-/// Where nothing changes nothing is set: engines begin the contacts of a body that is set anew.
+/// Where nothing changes nothing is set: engines begin the contacts of a body that is set again.
 void set_body(Batch& batch, scene::Index body, const Numbers& poses, const Numbers& velocities) {
   const auto p = span_of(poses, batch.size() * 7);
   const auto v = span_of(velocities, batch.size() * 6);

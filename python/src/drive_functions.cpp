@@ -58,7 +58,7 @@ Result<WrittenChoice> write_choice(const std::string& path, const OpenOptions& o
   return choice;
 }
 
-/// Raises for a word that is none of `known`.
+/// Raises for a word that is not in `known`.
 void check_word(const std::string& name, const std::string& word, bool is_known,
                 const std::vector<std::string>& known) {
   if (!word.empty() && !is_known) {

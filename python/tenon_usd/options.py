@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import operator
 import os
 from collections.abc import Mapping, Sequence
@@ -97,6 +98,13 @@ def list_of(name: str, value: Any) -> list[Any]:
     if isinstance(value, (str, os.PathLike)):
         raise TypeError(f"{name} is a list, not {value!r}; write [{value!r}]")
     return list(value)
+
+
+def check_positive(**given: float | None) -> None:
+    """Raises ValueError for a number that is not finite and above 0; None is none."""
+    for name, value in given.items():
+        if value is not None and not (0 < value and math.isfinite(value)):
+            raise ValueError(f"{name} is {value!r}; expected a number above 0")
 
 
 def _work_of(value: Any) -> int:

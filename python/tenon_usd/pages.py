@@ -20,7 +20,7 @@ from . import _tenon
 from ._lists import no_such
 from ._tenon import Stage
 from .errors import InvalidError
-from .options import OpenOptions, PathLike, arguments_of, list_of, path_of
+from .options import OpenOptions, PathLike, arguments_of, check_positive, list_of, path_of
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -46,17 +46,7 @@ class Page:
 
     def save(self, path: PathLike) -> None:
         """Writes the page; a file that is there already is replaced. Raises OSError."""
-        name = path_of(path)
-        part = f"{name}.{os.getpid()}.part"
-        try:
-            with open(part, "x", encoding="utf-8") as file:
-                file.write(self.html)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(part, name)
-        finally:
-            if os.path.exists(part):
-                os.remove(part)
+        _tenon.write_files(path_of(path), self.html.encode(), {})
 
     def __repr__(self) -> str:
         return (f"<Page of {len(self.html) // 1000} kB: {self.triangles} triangles, "
@@ -92,9 +82,7 @@ def view(
     for name, value in {"duration": duration, "time_step": time_step}.items():
         if value is not None and not (value >= 0 and math.isfinite(value)):
             raise ValueError(f"{name} is {value!r}; expected seconds, 0 or more")
-    for name, number in {"fps": fps, "height": height}.items():
-        if not (number > 0 and math.isfinite(number)):
-            raise ValueError(f"{name} is {number!r}; expected a number above 0")
+    check_positive(fps=fps, height=height)
     names = [str(one["name"]) for one in _tenon.engines()]
     if engine and engine not in names:
         raise InvalidError(f"engine: {no_such(engine, names)}")

@@ -76,7 +76,7 @@ class Renderer:
         return picture
 
     def depth(self, env: SupportsIndex = 0) -> Depth:
-        """How far what is seen is from the camera's plane [m], shape (height, width), float32."""
+        """Distance of each pixel's surface from the camera's plane [m], float32 (height, width)."""
         self._renderer.enable_depth_rendering()
         try:
             depth: Depth = self._drawn(env)

@@ -7,12 +7,11 @@ Rows of answers are lists of dictionaries and tables, too (tenon_usd.tables.Rows
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _tenon
-from .options import OpenOptions, PathLike, arguments_of, list_of, path_of
+from .options import OpenOptions, PathLike, arguments_of, check_positive, list_of, path_of
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -23,12 +22,6 @@ def _tables(answers: Sequence[dict[str, Any]], key: str) -> None:
 
     for answer in answers:
         answer[key] = Rows(answer[key])
-
-
-def _check_positive(**given: float | None) -> None:
-    for name, value in given.items():
-        if value is not None and not (0 < value and math.isfinite(value)):
-            raise ValueError(f"{name} is {value!r}; expected a number above 0")
 
 
 def colliders(
@@ -56,7 +49,7 @@ def colliders(
         raise ValueError("gap and save are about a budget; give budget, too")
     if budget is not None and approximation:
         raise ValueError("give either budget or approximation")
-    _check_positive(budget=budget)
+    check_positive(budget=budget)
     answer = _tenon.colliders(
         path_of(path), arguments_of(options), engine, list_of("colliders", colliders),
         approximation, budget or 0, gap, save
@@ -112,7 +105,7 @@ def tune(
         raise ValueError("there is nothing to save: give frequency, gains or search")
     if bool(masses) != bool(at):
         raise ValueError("a mass needs a place, and a place a mass: give masses and at")
-    _check_positive(frequency=frequency, settle=settle, time_step=time_step, period=period,
+    check_positive(frequency=frequency, settle=settle, time_step=time_step, period=period,
                     amplitude=amplitude, duration=duration)
     numbers = {"frequency": frequency, "damping_ratio": damping_ratio, "overshoot": overshoot,
                "settle": settle, "poses": poses, "seed": seed, "time_step": time_step,

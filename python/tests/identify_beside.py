@@ -40,7 +40,7 @@ DURATION, TRAINING, WINDOW = 6.0, 0.7, 2.0
 MARKS = re.compile(r"(<!-- beside: .*? -->\n)(.*?)(<!-- end of beside -->)", re.S)
 HEAD = """
 Beside MuJoCo's own identification, `mujoco.sysid`, on the same logs, from the same numbers, on one
-processor (`make judge ONLY=identify_beside`; logs of 6 s, of which 70 % are fitted; what is left of
+processor (`make judge ONLY=identify_beside`; logs of 6 s, of which 70 % are fitted; the error of
 held-out positions, and how far off the worst of the numbers is):
 
 | robot | seed | by | processor time | left | worst |

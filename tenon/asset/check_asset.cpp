@@ -142,21 +142,13 @@ void give_payloads_to_assets(std::map<std::string, LayerUses>& uses) {
 /// that it cannot be read is told.
 Result<std::vector<std::string>> usd_names_below(const bytes::Files& files,
                                                  const std::string& folder) {
+  TENON_TRY(const std::vector<bytes::FolderEntry> entries, bytes::entries_below(files, folder));
   std::vector<std::string> found;
-  std::vector<std::string> pending{folder};
-  while (!pending.empty()) {
-    const std::string at = pending.back() + (pending.back().ends_with('/') ? "" : "/");
-    pending.pop_back();
-    TENON_TRY(const std::vector<bytes::FolderEntry> entries, files->list(at));
-    for (const bytes::FolderEntry& entry : entries) {
-      if (entry.kind == bytes::NameKind::Folder) {
-        pending.push_back(at + entry.name);
-      } else if (is_usd_file(entry.name)) {
-        found.push_back(at + entry.name);
-      }
+  for (const bytes::FolderEntry& entry : entries) {
+    if (is_usd_file(entry.name)) {
+      found.push_back(entry.name);
     }
   }
-  std::sort(found.begin(), found.end());
   return found;
 }
 

@@ -131,22 +131,34 @@ Files Files::with(FileMap files) const {
   return Files(std::make_shared<const FilesOver>(*this, std::move(files)));
 }
 
-Result<std::vector<std::string>> files_below(const Files& files, const std::string& folder) {
-  std::vector<std::string> found;
+Result<std::vector<FolderEntry>> entries_below(const Files& files, const std::string& folder) {
+  std::vector<FolderEntry> found;
   std::vector<std::string> pending{folder};
   while (!pending.empty()) {
     const std::string at = pending.back() + (pending.back().ends_with('/') ? "" : "/");
     pending.pop_back();
     TENON_TRY(const std::vector<FolderEntry> entries, files->list(at));
     for (const FolderEntry& entry : entries) {
-      if (entry.kind == NameKind::File) {
-        found.push_back(at + entry.name);
-      } else if (entry.kind == NameKind::Folder) {
+      if (entry.kind == NameKind::Folder) {
         pending.push_back(at + entry.name);
+      } else {
+        found.push_back({at + entry.name, entry.kind});
       }
     }
   }
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin(), found.end(),
+            [](const FolderEntry& a, const FolderEntry& b) { return a.name < b.name; });
+  return found;
+}
+
+Result<std::vector<std::string>> files_below(const Files& files, const std::string& folder) {
+  TENON_TRY(const std::vector<FolderEntry> entries, entries_below(files, folder));
+  std::vector<std::string> found;
+  for (const FolderEntry& entry : entries) {
+    if (entry.kind == NameKind::File) {
+      found.push_back(entry.name);
+    }
+  }
   return found;
 }
 

@@ -77,6 +77,9 @@ class Files {
   std::shared_ptr<const FileSource> source_;
 };
 
+/// What is in `folder` and below it but folders, by its paths, sorted; symbolic links to folders
+/// are not followed. Errors: those of `list`.
+Result<std::vector<FolderEntry>> entries_below(const Files& files, const std::string& folder);
 /// Paths of the files in `folder` and below it, sorted; symbolic links to folders are not followed.
 /// Errors: those of `list`.
 Result<std::vector<std::string>> files_below(const Files& files, const std::string& folder);

@@ -154,18 +154,8 @@ class Masker {
         continue;
       }
       const Joint& old = scene_.joints[j];
-      Joint joint;
-      joint.path = old.path;
-      joint.kind = scene::JointKind::Fixed;
-      joint.body0 = old.body0;
-      joint.body1 = old.body1;
-      joint.target0 = old.target0;
-      joint.target1 = old.target1;
-      joint.frame0 = old.frame0;
+      Joint joint = scene::fixed_in_place_of(old);
       joint.frame1 = inverse(pose_of(old.body1)) * pose_of(old.body0) * old.frame0;
-      joint.collision_enabled = old.collision_enabled;
-      joint.exclude_from_articulation = old.exclude_from_articulation;
-      joint.articulation = old.articulation;
       scene_.joints[j] = std::move(joint);
       if (plan_.joint_held[j] != 0) {
         tell("mask.bypassed", "the joint is bypassed: it holds its sides as they stand",

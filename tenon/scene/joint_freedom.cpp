@@ -98,4 +98,20 @@ bool is_held_by_frames(const Joint& joint) {
   return false;
 }
 
+Joint fixed_in_place_of(const Joint& joint) {
+  Joint fixed;
+  fixed.path = joint.path;
+  fixed.kind = JointKind::Fixed;
+  fixed.body0 = joint.body0;
+  fixed.body1 = joint.body1;
+  fixed.target0 = joint.target0;
+  fixed.target1 = joint.target1;
+  fixed.frame0 = joint.frame0;
+  fixed.frame1 = joint.frame1;
+  fixed.collision_enabled = joint.collision_enabled;
+  fixed.exclude_from_articulation = joint.exclude_from_articulation;
+  fixed.articulation = joint.articulation;
+  return fixed;
+}
+
 }  // namespace tenon::scene

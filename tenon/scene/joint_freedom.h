@@ -31,5 +31,8 @@ double circular_cone(const Joint& joint);
 /// it is a simple constraint where it closes a loop. Fixed joints, and plain revolute or spherical
 /// ones without bounds except for a circular cone.
 bool is_held_by_frames(const Joint& joint);
+/// A fixed joint between the same sides and frames, which collide and belong to an articulation as
+/// those of `joint`.
+Joint fixed_in_place_of(const Joint& joint);
 
 }  // namespace tenon::scene

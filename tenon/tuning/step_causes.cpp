@@ -15,6 +15,7 @@
 #include "tenon/base/limits/run_limits.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/scene/joint_forest.h"
+#include "tenon/scene/joint_freedom.h"
 #include "tenon/scene/start_coordinate.h"
 #include "tenon/tuning/rig.h"
 
@@ -85,18 +86,8 @@ std::vector<Index> free_joints(const scene::PhysicsScene& scene,
 
 /// It stays where it is at the start.
 void hold_at_start(const scene::PhysicsScene& scene, scene::Joint& joint) {
-  scene::Joint held;
-  held.path = joint.path;
-  held.kind = scene::JointKind::Fixed;
-  held.body0 = joint.body0;
-  held.body1 = joint.body1;
-  held.target0 = joint.target0;
-  held.target1 = joint.target1;
+  scene::Joint held = scene::fixed_in_place_of(joint);
   held.frame0 = joint.frame0 * scene::relative_frames(scene, joint);
-  held.frame1 = joint.frame1;
-  held.collision_enabled = joint.collision_enabled;
-  held.exclude_from_articulation = joint.exclude_from_articulation;
-  held.articulation = joint.articulation;
   joint = std::move(held);
 }
 

@@ -271,7 +271,7 @@ class Benchmark(unittest.TestCase):
                          "--dt", step)
             results = {result["test"]: result
                        for result in json.loads(done.stdout)["engines"][0]["tests"]}
-            # The pushes begin anew, whatever became of the sweep before them.
+            # The pushes start again, whatever became of the sweep before them.
             self.assertGreater(results["effort_limit"]["rows"][0]["numbers"]["moved"], 0)
             for test in ("full_range_sweep", "drive_gain_validation"):
                 self.assertEqual(results[test]["verdict"], verdict, (step, results[test]))

@@ -86,6 +86,7 @@ def project_cases(folder):
 
     for path in measured.own_layers(PROJECT_STEP):
         if os.path.basename(path) in PLANTED_FOR_LIMITS:
+            print(f"skipped {os.path.relpath(path, REPO)}: planted for a limit below OpenUSD's")
             continue
         yield Case("project " + os.path.relpath(path, REPO), path, OWN_OPTIONS)
     for seed in PROJECT_SEEDS:

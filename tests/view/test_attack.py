@@ -38,7 +38,7 @@ WRONG = [None, True, 0, -1, 0.5, 1e308, -1e308, 2**63, 2**64, 10**300, "", "x", 
 
 
 def memory(process):
-    """The most that it has taken [kB]."""
+    """Its peak memory [kB]."""
     status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
     return int(status.split("VmHWM:")[1].split()[0])
 

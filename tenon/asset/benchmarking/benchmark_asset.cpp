@@ -21,26 +21,6 @@ namespace {
 constexpr double kBenchmarkGravity = 9.81;           // [m/s^2]
 constexpr double kLargestBenchmarkStep = 1.0 / 240;  // [s]
 
-Result<std::vector<std::string>> benchmark_engines(const BenchmarkOptions& options,
-                                                   const stage::Stage& stage,
-                                                   Diagnostics& diagnostics) {
-  if (options.engine != "all") {
-    return std::vector<std::string>{choose_engine(options.engine, stage, diagnostics)};
-  }
-  std::vector<std::string> names;
-  for (const engines::EngineInfo& info : list_engines()) {
-    if (info.available) {
-      names.push_back(info.name);
-    }
-  }
-  if (names.empty()) {
-    return Error(ErrorCode::Missing, "this build has no engine")
-        .with_rule("engine.missing")
-        .with_fix("build it with an engine");
-  }
-  return names;
-}
-
 void set_gravity(scene::PhysicsScene& scene) {
   for (scene::Scene& one : scene.scenes) {
     one.gravity = scene.up * -kBenchmarkGravity;
@@ -97,12 +77,7 @@ Result<BenchmarkedEngine> benchmark_engine(const std::string& path, const std::s
   engine.engine = name;
   engine.version = engine_info(name).version;
   OpenOptions open = with_readings(options.open, options.readings);
-  const bool chosen = !open.physics_variant.empty() || !open.physics_of.empty();
-  engine.variant = chosen ? open.physics_variant : own_variant(name, stage);
-  if (!chosen && !engine.variant.empty()) {
-    open.physics_variant = engine.variant;
-    open.physics_below = true;
-  }
+  engine.variant = select_own_variant(name, stage, open);
   TENON_TRY(const stage::Stage own, tenon::open(path, open, findings));
   BenchmarkRun run;
   run.scene = physics::read_physics(own, read_options(options.readings), findings);
@@ -153,10 +128,10 @@ bool BenchmarkedAsset::interrupted() const {
 
 Result<BenchmarkedAsset> benchmark_asset(const std::string& path, const BenchmarkOptions& options,
                                          Diagnostics& diagnostics) {
-  Diagnostics again;  // what is known from the first engine, which opens the asset for itself
+  Diagnostics again;  // findings that the first engine, which opens the asset for itself, tells
   TENON_TRY(const stage::Stage stage,
             tenon::open(path, with_readings(options.open, options.readings), again));
-  TENON_TRY(const auto names, benchmark_engines(options, stage, diagnostics));
+  TENON_TRY(const auto names, chosen_engines(options.engine, stage, diagnostics));
   BenchmarkedAsset benchmarked;
   for (const std::string& name : names) {
     if (!benchmarked.interrupted()) {

@@ -156,9 +156,7 @@ class JointRun {
  private:
   static std::vector<Index> all_bodies(const scene::PhysicsScene& scene) {
     std::vector<Index> bodies(scene.bodies.size());
-    for (Index b = 0; b < bodies.size(); ++b) {
-      bodies[b] = b;
-    }
+    std::iota(bodies.begin(), bodies.end(), Index{0});
     return bodies;
   }
 

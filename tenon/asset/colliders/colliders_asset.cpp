@@ -271,13 +271,7 @@ Result<std::vector<std::string>> engines_to_ask(const CollidersOptions& options,
         .with_rule("colliders.engines")
         .with_fix("name one with --engine");
   }
-  std::vector<std::string> names;
-  for (const engines::EngineInfo& info : list_engines()) {
-    if (info.available) {
-      names.push_back(info.name);
-    }
-  }
-  return names;
+  return available_engines();
 }
 
 }  // namespace
@@ -297,17 +291,14 @@ Result<CollidersOfAsset> colliders_of_asset(const std::string& path,
                                             Diagnostics& diagnostics) {
   TENON_TRY(const stage::Stage stage, tenon::open(path, options.open, diagnostics));
   TENON_TRY(const std::vector<std::string> engines, engines_to_ask(options, stage, diagnostics));
-  const bool chosen = !options.open.physics_variant.empty() || !options.open.physics_of.empty();
   CollidersOfAsset found;
   found.budget = options.budget;
   for (const std::string& engine : engines) {
-    const std::string variant = chosen ? options.open.physics_variant : own_variant(engine, stage);
+    OpenOptions open = options.open;
+    const std::string variant = select_own_variant(engine, stage, open);
     Diagnostics told_already;
     std::optional<stage::Stage> own;  // where the engine has a variant of its own
-    if (!chosen && !variant.empty()) {
-      OpenOptions open = options.open;
-      open.physics_variant = variant;
-      open.physics_below = true;
+    if (variant != options.open.physics_variant) {
       TENON_TRY(own, tenon::open(path, open, told_already));
     }
     Diagnostics& findings = found.engines.empty() ? diagnostics : told_already;

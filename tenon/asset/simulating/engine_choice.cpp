@@ -63,6 +63,30 @@ std::string choose_engine(const std::string& asked, const stage::Stage& stage,
   return engine;
 }
 
+std::vector<std::string> available_engines() {
+  std::vector<std::string> names;
+  for (const engines::EngineInfo& info : list_engines()) {
+    if (info.available) {
+      names.push_back(info.name);
+    }
+  }
+  return names;
+}
+
+Result<std::vector<std::string>> chosen_engines(const std::string& asked, const stage::Stage& stage,
+                                                Diagnostics& diagnostics) {
+  if (asked != "all") {
+    return std::vector<std::string>{choose_engine(asked, stage, diagnostics)};
+  }
+  std::vector<std::string> names = available_engines();
+  if (names.empty()) {
+    return Error(ErrorCode::Missing, "this build has no engine")
+        .with_rule("engine.missing")
+        .with_fix("build it with an engine");
+  }
+  return names;
+}
+
 std::string own_variant(const std::string& engine, const stage::Stage& stage) {
   std::set<std::string> variants;
   for (const stage::Prim& prim : prims_with_physics_set(stage)) {
@@ -71,6 +95,17 @@ std::string own_variant(const std::string& engine, const stage::Stage& stage) {
     }
   }
   return variants.contains(engine) ? engine : variants.contains("physics") ? "physics" : "";
+}
+
+std::string select_own_variant(const std::string& engine, const stage::Stage& stage,
+                               OpenOptions& open) {
+  const bool chosen = !open.physics_variant.empty() || !open.physics_of.empty();
+  const std::string own = chosen ? "" : own_variant(engine, stage);
+  if (!own.empty()) {
+    open.physics_variant = own;
+    open.physics_below = true;
+  }
+  return open.physics_variant;
 }
 
 }  // namespace tenon

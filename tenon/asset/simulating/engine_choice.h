@@ -3,8 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tenon/base/diagnostics.h"
+#include "tenon/base/result.h"
+#include "tenon/open_stage.h"
 #include "tenon/stage/stage.h"
 
 namespace tenon {
@@ -19,8 +22,21 @@ inline constexpr const char* kUsualEngine = "mujoco";
 std::string choose_engine(const std::string& asked, const stage::Stage& stage,
                           Diagnostics& diagnostics);
 
+/// The names of the engines that this build has.
+std::vector<std::string> available_engines();
+
+/// The engines that are asked for: all of this build for "all", else choose_engine(). Errors:
+/// Missing (engine.missing) for "all" in a build without any.
+Result<std::vector<std::string>> chosen_engines(const std::string& asked, const stage::Stage& stage,
+                                                Diagnostics& diagnostics);
+
 /// The variant of the variant sets "Physics" that is the engine's own: the one of its name, else
 /// "physics", where a set has it; "" else.
 std::string own_variant(const std::string& engine, const stage::Stage& stage);
+
+/// Lets `open` select the engine's own variant, where it selects none itself and there is one. The
+/// variant that it selects then; "" where it selects none of them all.
+std::string select_own_variant(const std::string& engine, const stage::Stage& stage,
+                               OpenOptions& open);
 
 }  // namespace tenon

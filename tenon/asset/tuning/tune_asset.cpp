@@ -217,25 +217,6 @@ void add_drive_request(TunedAsset& tuned) {
 
 // ---- engines
 
-Result<std::vector<std::string>> engines_of(const TuneOptions& options, const stage::Stage& stage,
-                                            Diagnostics& diagnostics) {
-  if (options.engine != "all") {
-    return std::vector<std::string>{choose_engine(options.engine, stage, diagnostics)};
-  }
-  std::vector<std::string> names;
-  for (const engines::EngineInfo& info : list_engines()) {
-    if (info.available) {
-      names.push_back(info.name);
-    }
-  }
-  if (names.empty()) {
-    return Error(ErrorCode::Missing, "this build has no engine")
-        .with_rule("engine.missing")
-        .with_fix("build it with an engine");
-  }
-  return names;
-}
-
 /// The gains that are to be go into the scene of an engine.
 void put_gains(const std::vector<TunedDrive>& drives, TunedEngine& engine) {
   bool changed = false;
@@ -267,12 +248,7 @@ Result<TunedEngine> open_engine(const std::string& path, const std::string& name
   engine.engine = name;
   engine.version = engine_info(name).version;
   OpenOptions open = options.open;
-  const bool chosen = !open.physics_variant.empty() || !open.physics_of.empty();
-  engine.variant = chosen ? open.physics_variant : own_variant(name, table.stage);
-  if (!chosen && !engine.variant.empty()) {
-    open.physics_variant = engine.variant;
-    open.physics_below = true;
-  }
+  engine.variant = select_own_variant(name, table.stage, open);
   Diagnostics ignored;  // the table's are told
   TENON_TRY(ReadDrives read, read_drives(path, open, options, ignored));
   engine.scene = std::move(read.scene);
@@ -453,7 +429,7 @@ Result<TunedAsset> tune_asset(const std::string& path, const TuneOptions& option
       tuned.drives[i].asked = true;
     }
   }
-  TENON_TRY(const auto names, engines_of(options, table.stage, diagnostics));
+  TENON_TRY(const auto names, chosen_engines(options.engine, table.stage, diagnostics));
   std::vector<TunedEngine> engines;
   for (const std::string& name : names) {
     TENON_TRY(TunedEngine engine, open_engine(path, name, table, options));
