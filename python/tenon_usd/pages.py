@@ -45,7 +45,7 @@ class Page:
         self.diagnostics: list[_tenon.Diagnostic] = answer["diagnostics"]
 
     def save(self, path: PathLike) -> None:
-        """Writes the page; a file that is there already is replaced. Raises OSError."""
+        """Writes the page; a file that is there is replaced, folders are made. Raises OSError."""
         _tenon.write_files(path_of(path), self.html.encode(), {})
 
     def __repr__(self) -> str:

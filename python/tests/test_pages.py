@@ -48,8 +48,10 @@ class Pages(support.FilesTestCase):
             page.save(self.folder / "hand.html")
         self.assertEqual(os.listdir(self.folder), ["hand.html"])
         self.assertEqual((self.folder / "hand.html").read_text("utf-8"), page.html)
+        page.save(self.folder / "made/hand.html")
+        self.assertTrue((self.folder / "made/hand.html").is_file())
         with self.assertRaises(OSError):
-            page.save(self.folder / "nowhere/hand.html")
+            page.save(self.folder / "hand.html/hand.html")
 
     def test_what_makes_no_sense_is_refused(self):
         for wrong in ({"duration": -1}, {"fps": 0}, {"height": 0}, {"engine": "mujocco"},
