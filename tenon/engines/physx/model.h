@@ -57,6 +57,25 @@ struct ReducedTree {
   scene::Index scene = 0;
 };
 
+/// What acts along one coordinate, as the one drive that PhysX has for it.
+struct AxisLaw {
+  double stiffness = 0;
+  double damping = 0;
+  double max_force = scene::kUnlimited;
+  bool acceleration = false;
+  double target_position = 0;
+  double target_velocity = 0;
+  bool acts() const { return (stiffness != 0 || damping != 0) && max_force != 0; }
+};
+
+/// A spring and damper of a joint's own beside a drive that is not of their kind: its force is
+/// bounded, or it is a law of accelerations (drives.h).
+struct SpringBesideDrive {
+  AxisLaw spring;
+  AxisLaw drive;
+  int at_bound = 0;  ///< sign of the bound that the drive is at in this step; 0: of none
+};
+
 /// How PhysX represents one joint.
 enum class JointRole : std::uint8_t {
   None,     ///< disabled, or without effect
@@ -74,19 +93,12 @@ struct JointMap {
   bool reversed = false;                                               ///< the child is body0
   px::PxArticulationAxis::Enum axis = px::PxArticulationAxis::eTWIST;  ///< of its one coordinate
   int coordinate = -1;  ///< into the cache of its tree; -1: none, or a ball
+  double inertia = 0;   ///< along it at the start, while the other coordinates stand still
+  std::optional<SpringBesideDrive> beside;
   // Of Maximal:
   px::PxJoint* constraint = nullptr;
   px::PxD6Joint* d6 = nullptr;  ///< the same, unless it bounds a distance
   std::size_t main = 0;         ///< axis of the joint's frames that is x of the constraint's
-};
-
-/// A spring, damper or friction that no drive of PhysX has room for: a force on a coordinate,
-/// computed before each step.
-struct PassiveForce {
-  scene::Index joint = 0;
-  double stiffness = 0;
-  double reference = 0;
-  double damping = 0;
 };
 
 /// What one joint has of a fixed tendon. Joints on its way that have no part in it have share 0.
@@ -127,7 +139,6 @@ struct Model {
   std::vector<px::PxRigidActor*> static_actors;   ///< (collider_count), null: of a body
   std::vector<JointMap> joints;                   ///< (joint_count)
   std::vector<ReducedTree> trees;
-  std::vector<PassiveForce> passive;
   std::vector<Coupling*> couplings;  ///< `owned` has them
   std::vector<FixedTendonLaw> tendons;
   std::vector<NotMapped> not_mapped;

@@ -279,6 +279,95 @@ TEST(PhysxEfforts, OfADriveInMotionAreThoseThatMoved) {
   }
 }
 
+/// A wheel whose drive and own spring pull it two ways, with a damper of its own.
+TestScene sprung_wheel(double inertia, double damping, bool articulated) {
+  TestScene scene(0);
+  const Index body = scene.add_body("wheel", {}, 1, {{inertia, inertia, inertia}});
+  scene::Joint& hinge = scene.add_joint("hinge", JointKind::Revolute, {}, body, scene::Axis::X);
+  hinge.drives.push_back(drive(Dof::RotX, 200, 0));
+  hinge.drives[0].target_position = 0.5;
+  hinge.stiffness = 100;
+  hinge.spring_reference = 0.2;
+  hinge.damping = damping;
+  if (articulated) {
+    articulate(scene);
+  }
+  return scene;
+}
+
+// Between both targets, by exp(-(k1 + k2) t / d); d dt is four times the inertia, so beside the
+// drive the damper would throw the wheel about.
+TEST(PhysxEfforts, OfAStiffDamperBesideADriveHoldTheWheelBack) {
+  for (const bool articulated : {true, false}) {
+    SCOPED_TRACE(articulated ? "articulated" : "maximal");
+    const TestScene scene = sprung_wheel(0.01, 20, articulated);
+    const auto wheel = watched(scene);
+    for (const double time : {0.05, 0.1, 0.15}) {
+      run(*wheel, 0.05);
+      const double place = wheel->joint_state(0).position[0];
+      EXPECT_NEAR(place, 0.4 * (1 - std::exp(-15 * time)), 0.005) << time;
+      EXPECT_NEAR((*wheel->drive_efforts(0))[0], 200 * (0.5 - place), 2) << time;
+    }
+  }
+}
+
+// The same with a bound on the drive's force, at which it stays until 200 (0.5 - q) is less.
+TEST(PhysxEfforts, OfBoundedDrivesBesideAStiffDamperAreAtTheirBoundOrBelow) {
+  const double below = std::log(0.8 / 0.6) / 5;  // [s] until q is 0.2
+  for (const double bound : {15.0, 60.0}) {
+    SCOPED_TRACE(bound);
+    TestScene scene = sprung_wheel(0.01, 20, true);
+    scene.joints[0].drives[0].max_force = bound;
+    const auto wheel = watched(scene, 0.0005);
+    for (double time = 0.025; time < 0.4; time += 0.025) {
+      run(*wheel, 0.025);
+      const double place = wheel->joint_state(0).position[0];
+      const double wanted = bound < 20     ? 0.35 * (1 - std::exp(-5 * time))
+                            : time < below ? 0.8 * (1 - std::exp(-5 * time))
+                                           : 0.4 - 0.2 * std::exp(-15 * (time - below));
+      EXPECT_NEAR(place, wanted, 0.006) << time;
+      EXPECT_NEAR((*wheel->drive_efforts(0))[0], std::min(bound, 200 * (0.5 - wanted)), 3) << time;
+    }
+  }
+}
+
+// A finger as URDF has it: 1e-5 kg m^2 with a damper of 10, and a drive with more damping still.
+TEST(PhysxEfforts, OfALightFingerMoveItAsFastAsItsDamperLetsThem) {
+  TestScene scene = sprung_wheel(1e-5, 10, true);
+  scene.joints[0].stiffness = 0;
+  scene.joints[0].drives[0] = drive(Dof::RotX, 300, 20);
+  scene.joints[0].drives[0].target_position = 1;
+  scene.joints[0].drives[0].max_force = 15;
+  const auto finger = watched(scene);
+  for (int i = 0; i < 500; ++i) {
+    run(*finger, 0.002);
+    EXPECT_LT(std::abs(finger->joint_state(0).velocity[0]), 1.55) << i;
+    EXPECT_LE(std::abs((*finger->drive_efforts(0))[0]), 15.01) << i;
+  }
+  EXPECT_NEAR(finger->joint_state(0).position[0], 1, 0.01);
+}
+
+// A drive of bounded force has no room for the spring and the damper, which act all the same, also
+// where the bound comes and goes.
+TEST(PhysxEfforts, OfSpringsBesideDrivesAreTheSameWhateverBoundsThese) {
+  const TestScene scene = sprung_wheel(0.2, 3, true);
+  TestScene scene_with_bound = scene;
+  scene_with_bound.joints[0].drives[0].max_force = 1e4;
+  const auto free = watched(scene, 0.0005);
+  const auto bounded = watched(scene_with_bound, 0.0005);
+  const auto changed = watched(scene, 0.0005);
+  for (int i = 0; i < 10; ++i) {
+    const double bound = i % 2 == 0 ? 1e4 : scene::kUnlimited;
+    ASSERT_TRUE(changed->set_parameter({Parameter::DriveMaxForce, 0, 0}, bound).has_value());
+    for (const auto& wheel : {&free, &bounded, &changed}) {
+      run(**wheel, 0.02);
+    }
+    const double place = free->joint_state(0).position[0];
+    EXPECT_NEAR(bounded->joint_state(0).position[0], place, 0.01) << i;
+    EXPECT_NEAR(changed->joint_state(0).position[0], place, 0.01) << i;
+  }
+}
+
 /// What the balance of energy lacks after a run, relative to what was turned over.
 double imbalance(const scene::PhysicsScene& scene, double time_step, double seconds) {
   const auto simulation = watched(scene, time_step);

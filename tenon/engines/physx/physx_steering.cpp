@@ -79,11 +79,6 @@ Result<void> PhysxSimulation::write_joint_parameter(const ParameterKey& key) {
   if (!coordinate && (map.d6 == nullptr || driven)) {
     return refused("on coordinates of articulations, and on joints without a drive");
   }
-  std::erase_if(model_.passive,
-                [&](const PassiveForce& passive) { return passive.joint == key.object; });
-  if (const auto passive = passive_force(joint, key.object, map)) {
-    model_.passive.push_back(*passive);
-  }
   inputs_.steer_drive(key.object, model_, steering_, time());
   return {};
 }

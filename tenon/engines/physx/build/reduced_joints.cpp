@@ -65,9 +65,6 @@ void set_coordinate(Build& build, Index index, JointMap& map) {
     made.setLimitParams(map.axis, limits_of_coordinate(free));
   }
   write_drives(joint, map, build.model.time_step);
-  if (const std::optional<PassiveForce> passive = passive_force(joint, index, map)) {
-    build.model.passive.push_back(*passive);
-  }
   made.setArmature(map.axis, to_px(joint.armature));
 }
 

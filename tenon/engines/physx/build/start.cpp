@@ -96,6 +96,22 @@ void place_tree(Build& build, std::size_t tree) {
   made.articulation->applyCache(*made.cache, flags);
 }
 
+// The diagonal of the mass matrix, which PhysX makes without armatures.
+void note_inertias(Build& build, std::size_t tree) {
+  const ReducedTree& made = build.model.trees[tree];
+  made.articulation->commonInit();
+  made.articulation->computeGeneralizedMassMatrix(*made.cache);
+  const std::size_t count = made.articulation->getDofs();
+  for (Index j = 0; j < build.model.joints.size(); ++j) {
+    JointMap& map = build.model.joints[j];
+    if (is_coordinate(map, tree) && !map.dofs.ball) {
+      const auto place = static_cast<std::size_t>(map.coordinate);
+      map.inertia = static_cast<double>(made.cache->massMatrix[place * count + place]) +
+                    build.scene.joints[j].armature;
+    }
+  }
+}
+
 void start_tree(Build& build, std::size_t tree, const scene::FittedVelocities& fitted) {
   ReducedTree& made = build.model.trees[tree];
   for (Index j = 0; j < build.model.joints.size(); ++j) {
@@ -186,6 +202,7 @@ void start(Build& build, Begin begin) {
   insert(build);
   for (std::size_t t = 0; t < build.model.trees.size(); ++t) {
     place_tree(build, t);
+    note_inertias(build, t);
   }
   const std::vector<scene::BodyState> states = placed_states(build, begin);
   if (scene::anything_moves(build.scene, states)) {

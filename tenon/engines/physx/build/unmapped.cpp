@@ -47,8 +47,9 @@ void report_drives(Build& build, Index index) {
       build.report(joint.path, "friction",
                    "joint friction is dropped: PhysX cannot combine it with a drive");
     }
-    if (driven && map.d6 != nullptr && has_spring(joint)) {
-      build.report(joint.path, "damping", "joints outside of articulations have their drive alone");
+    if (driven && map.d6 != nullptr && has_spring(joint) && !acts_beside_drive(joint, map, dof)) {
+      build.report(joint.path, "damping",
+                   "joints outside of articulations have a drive of bounded force alone");
     }
     swings += driven && map.d6 != nullptr && is_angular(dof) && slot_of(dof, map.main).number != 0;
   }

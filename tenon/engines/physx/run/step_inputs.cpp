@@ -59,7 +59,7 @@ StepInputs::StepInputs(const scene::PhysicsScene& scene)
   }
 }
 
-void StepInputs::before_step(const Model& model, const Steering& steering, double now) {
+void StepInputs::before_step(Model& model, const Steering& steering, double now) {
   if (has_pushes_) {
     std::fill(applied_.begin(), applied_.end(), Wrench{});
     std::fill(joint_pushes_.begin(), joint_pushes_.end(), Wrench{});
@@ -90,12 +90,11 @@ scene::Drive StepInputs::drive_now(Index joint, Index drive, const Steering& ste
   return joint_now(joint, steering, now).drives[drive];
 }
 
-void StepInputs::steer_drive(Index joint, const Model& model, const Steering& steering,
-                             double now) {
+void StepInputs::steer_drive(Index joint, Model& model, const Steering& steering, double now) {
   write_drives(joint_now(joint, steering, now), model.joints[joint], model.time_step);
 }
 
-void StepInputs::follow_drive_tracks(const Model& model, const Steering& steering, double now) {
+void StepInputs::follow_drive_tracks(Model& model, const Steering& steering, double now) {
   for (const Index joint : tracked_) {
     steer_drive(joint, model, steering, now);
   }
@@ -175,8 +174,10 @@ void StepInputs::push_constraint(const Model& model, Index joint,
   has_pushes_ = true;
 }
 
-void StepInputs::push_coordinates(const Model& model, const Steering& steering) {
-  const bool pushes = !steering.efforts.empty() || !model.passive.empty();
+void StepInputs::push_coordinates(Model& model, const Steering& steering) {
+  const bool pushes = !steering.efforts.empty() ||
+                      std::any_of(model.joints.begin(), model.joints.end(),
+                                  [](const JointMap& map) { return map.beside.has_value(); });
   if (!pushes && !has_forces_) {
     return;
   }
@@ -185,12 +186,15 @@ void StepInputs::push_coordinates(const Model& model, const Steering& steering) 
   for (const ReducedTree& tree : model.trees) {
     std::fill_n(tree.cache->jointForce, tree.articulation->getDofs(), 0.0F);
   }
-  for (const PassiveForce& passive : model.passive) {
-    const JointMap& map = model.joints[passive.joint];
-    const JointState state = read_joint_state(*scene_, model, passive.joint);
-    model.trees[map.tree].cache->jointForce[map.coordinate] +=
-        to_px(passive.stiffness * (passive.reference - state.position[0]) -
-              passive.damping * state.velocity[0]);
+  for (Index j = 0; j < model.joints.size(); ++j) {
+    JointMap& map = model.joints[j];
+    if (map.beside) {
+      const auto given = steering.efforts.find(j);
+      const double effort =
+          given != steering.efforts.end() && !given->second.empty() ? given->second.front() : 0;
+      model.trees[map.tree].cache->jointForce[map.coordinate] +=
+          to_px(prepare_spring(map, read_joint_state(*scene_, model, j), effort, model.time_step));
+    }
   }
   for (const auto& [joint, efforts] : steering.efforts) {
     const JointMap& map = model.joints[joint];

@@ -18,9 +18,9 @@ class StepInputs {
   explicit StepInputs(const scene::PhysicsScene& scene);
 
   /// `now` [s] is the beginning of the step.
-  void before_step(const Model& model, const Steering& steering, double now);
+  void before_step(Model& model, const Steering& steering, double now);
   /// The drives of a joint with what the user has set of them, written at once.
-  void steer_drive(scene::Index joint, const Model& model, const Steering& steering, double now);
+  void steer_drive(scene::Index joint, Model& model, const Steering& steering, double now);
   /// One drive with what samples and the user say of it.
   scene::Drive drive_now(scene::Index joint, scene::Index drive, const Steering& steering,
                          double now) const;
@@ -35,10 +35,10 @@ class StepInputs {
   const std::vector<Wrench>& joint_pushes() const { return joint_pushes_; }
 
  private:
-  void follow_drive_tracks(const Model& model, const Steering& steering, double now);
+  void follow_drive_tracks(Model& model, const Steering& steering, double now);
   void move_bodies(const Model& model, const Steering& steering, double at) const;
   void push_bodies(const Model& model, const Steering& steering);
-  void push_coordinates(const Model& model, const Steering& steering);
+  void push_coordinates(Model& model, const Steering& steering);
   void push_constraint(const Model& model, scene::Index joint, const std::vector<double>& efforts);
   void push(const Model& model, scene::Index body, const Wrench& wrench) const;
   void apply(const Model& model, scene::Index body, const Wrench& wrench);

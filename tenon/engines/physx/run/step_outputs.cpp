@@ -37,11 +37,9 @@ std::vector<double> drive_efforts(const scene::Joint& joint, const StepMotion& s
       if (dofs.free[i].dof != drive.dof || (drive.stiffness == 0 && drive.damping == 0)) {
         continue;
       }
-      const double damping = std::max(drive.damping, drive.stiffness * step.model.time_step);
-      const double force = drive.stiffness * (drive.target_position - from[i]) +
-                           drive.damping * drive.target_velocity - damping * speed[i];
-      efforts[d] =
-          std::clamp(drive.acceleration ? left_over : force, -drive.max_force, drive.max_force);
+      efforts[d] = drive_effort(joint, step.model.joints[index], drive, from[i], speed[i],
+                                step.model.time_step)
+                       .value_or(std::clamp(left_over, -drive.max_force, drive.max_force));
     }
   }
   return efforts;
