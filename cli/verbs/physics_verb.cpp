@@ -48,6 +48,11 @@ int run_physics(const Globals& globals, const PhysicsArguments& options) {
   }
   const answers::Geometry geometry =
       options.geometry == "inline" ? answers::Geometry::Inline : answers::Geometry::Hash;
+  if (globals.json && geometry == answers::Geometry::Inline) {
+    if (const auto checked = answers::check_inline_json(scene); !checked) {
+      return report.fail(checked.error());
+    }
+  }
   if (globals.json && report.is_one()) {
     return report.finish_in_pieces(kOk, [&](answers::JsonTextSink& sink) {
       answers::write_scene_members(scene, geometry, sink);

@@ -542,14 +542,17 @@ void bind_physics(nb::module_& module) {
   bound.def(
       "json",
       [](const ReadScene& self, bool geometry) {
-        return message(unlocked([&] {
+        return message(or_raise(unlocked([&]() -> Result<std::string> {
+          if (geometry) {
+            TENON_CHECK(answers::check_inline_json(self.scene));
+          }
           return answers::scene_json(
               self.scene, geometry ? answers::Geometry::Inline : answers::Geometry::Hash);
-        }));
+        })));
       },
       nb::kw_only(), "geometry"_a = false,
       "As JSON text [SI, rad], as `tenon physics --json` prints it; with `geometry` points and "
-      "triangles of meshes [m], else a hash of them.");
+      "triangles of meshes [m], else a hash of them. Raises for more than from_json() takes.");
   bound.def_static("from_json", &scene_of_json, "json"_a,
                    "The scene that JSON with geometry describes. Raises for faulty JSON.");
 }

@@ -20,6 +20,7 @@
 #include "tenon/answers/dump/json_sink.h"
 #include "tenon/answers/json_form.h"
 #include "tenon/answers/scene_json_value.h"
+#include "tenon/base/limits/reading_limits.h"
 #include "tenon/scene/fields/data_type.h"
 #include "tenon/scene/fields/list_of.h"
 #include "tenon/scene/fields/same_fields.h"
@@ -472,6 +473,24 @@ std::string scene_json(const PhysicsScene& scene, Geometry geometry) {
     Writer(references, geometry, sink).object(view_of(scene));
   }
   return text;
+}
+
+Result<void> check_inline_json(const PhysicsScene& scene) {
+  std::size_t bytes = 0;
+  {
+    JsonTextSink sink(2, false, [&](std::string_view piece) { bytes += piece.size(); });
+    sink.begin_object();
+    write_scene_members(scene, Geometry::Inline, sink);
+    sink.end_object();
+  }
+  if (bytes > limits::kSceneJson) {
+    return Error(ErrorCode::Limit, "with the points of its meshes the physics as JSON has " +
+                                       std::to_string(bytes) + " bytes; only " +
+                                       std::to_string(limits::kSceneJson) + " can be read back")
+        .with_rule("physics.json")
+        .with_fix("without inline geometry meshes are hashes");
+  }
+  return {};
 }
 
 void write_scene_members(const PhysicsScene& scene, Geometry geometry, JsonTextSink& sink) {

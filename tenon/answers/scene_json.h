@@ -22,6 +22,10 @@ enum class Geometry : std::uint8_t { Hash, Inline };
 
 std::string scene_json(const scene::PhysicsScene& scene, Geometry geometry);
 
+/// Whether read_scene_json() takes the text that is written with inline geometry. Errors: Limit
+/// (physics.json), where it is longer than kSceneJson.
+Result<void> check_inline_json(const scene::PhysicsScene& scene);
+
 /// The scene that JSON with inline geometry describes: the one that it was made of. Unknown keys
 /// are ignored; `mimic` counts in JSON of version 1.0, which has no `mimics`. Errors: Parse;
 /// Invalid, with the place of a value that cannot be read; Corrupt, where the scene contradicts

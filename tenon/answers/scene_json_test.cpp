@@ -42,6 +42,17 @@ TEST(SceneJson, NoLeafIsLeftOut) {
   });
 }
 
+TEST(SceneJson, WhatCannotBeReadBackIsRefused) {
+  PhysicsScene scene;
+  scene.meshes.emplace_back().points.assign(3'000'000, Vec3d{{0.1234567890123, -1.0 / 3, 1e-9}});
+  const auto checked = check_inline_json(scene);
+  ASSERT_FALSE(checked.has_value());
+  EXPECT_EQ(checked.error().code(), ErrorCode::Limit);
+  EXPECT_EQ(checked.error().diagnostic().rule, "physics.json");
+  scene.meshes.front().points.resize(1'000'000);
+  EXPECT_TRUE(check_inline_json(scene).has_value());
+}
+
 TEST(SceneJson, AHashTellsMeshesApart) {
   const PhysicsScene scene = scene::filled_scene();
   PhysicsScene moved = scene;

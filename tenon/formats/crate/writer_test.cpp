@@ -59,6 +59,18 @@ TEST(CrateWriter, GivesBackEveryTypeOfValue) {
   EXPECT_EQ(*write_crate(*back), *bytes);
 }
 
+// OpenUSD cannot write such a layer (CONFORMANCE.md).
+TEST(CrateWriter, KeepsUnitsOfMeasure) {
+  Layer layer = layer_with(1.0);
+  layer.find(Path::from("/A"))->set(layer::fields::properties, std::vector<Token>{"a"});
+  layer::Spec& length = layer.create(Path::from("/A.a"), SpecKind::Attribute);
+  length.set(layer::fields::typeName, Token("double"));
+  length.set(layer::fields::displayUnit, Token("mm"));
+  const auto back = read_back(*write_crate(layer));
+  ASSERT_TRUE(back) << back.error().to_string();
+  expect_equal(layer, *back);
+}
+
 TEST(CrateWriter, KeepsNegativeZeroInfinityAndNan) {
   for (const double number : {-0.0, kInfinity, -kInfinity, 1e300, 1e-300, 0.1}) {
     const auto back = read_back(*write_crate(layer_with(number)));

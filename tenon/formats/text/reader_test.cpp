@@ -289,6 +289,15 @@ TEST(TextReader, AttributesHaveValuesSamplesAndPlaces) {
   EXPECT_EQ(samples->values[1].get_or(0.0), 3.0);
 }
 
+// OpenUSD rejects the second sample (CONFORMANCE.md).
+TEST(TextReader, SamplesOfAnUnknownTypeAreReadLikeTheFirst) {
+  const Spec spec =
+      spec_of("def \"A\" {\n uint2 a.timeSamples = {\n 0: (1, 2),\n 1: (3, 4),\n }\n}\n", "/A.a");
+  const auto* samples = spec.get<layer::TimeSamples>("timeSamples");
+  ASSERT_NE(samples, nullptr);
+  EXPECT_EQ(samples->times, (std::vector<double>{0, 1}));
+}
+
 TEST(TextReader, ChildrenKeepTheirOrder) {
   const auto layer = read(
       "def \"B\" {\n}\ndef \"A\" {\n int z\n int a\n variantSet \"v\" = {\n \"y\" {\n def \"C\" {\n"
