@@ -347,6 +347,9 @@ def process_tasks(bench):
         yield ("value_mesh_crate", bench.measure_processes,
                [bench.program("first_value"), bench.scene("mesh.usdc")],
                [*PEER, "first_value", bench.scene("mesh.usdc")], imports)
+    bodies = bench.scene("physics.usda")
+    yield ("physics_json", bench.measure_processes, [tenon, "--json", "physics", bodies],
+           [*PEER, "physics", bodies], "usd-core writes no JSON; " + imports)
     for name, file in (("hand", HAND), ("isaac_hand", ISAAC_HAND)):
         if not os.path.exists(file):
             continue
