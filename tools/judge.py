@@ -88,11 +88,15 @@ def judgements_of_engines():
                     "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("tuned_robots", ["{python}", "-B", "tests/tuning/tuned_robots.py", ".",
                                      "build/release/bin/tenon", "docs/tuned-robots.md",
-                                     "--robots", "15"],
+                                     "--robots", "50"],
                     "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("mass_matrices", ["{python}", "-B", "tests/dynamics/mujoco_matrices.py", ".",
                                       "build/release/bin/tenon", "1000"],
                     "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("mass_matrices_physx", ["{engine}", "-B", "tests/dynamics/physx_matrices.py",
+                                            ".", "build/release/bin/tenon", "1000"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/engines_beside/requirements-ovphysx.txt")
     # The same, and pairs that touch, beside Pinocchio and Coal.
     pinocchio = "tests/dynamics/requirements-pinocchio.txt"
     yield Judgement("pairs_beside", ["{engine}", "-B", "tests/dynamics/pairs_beside.py", ".",
@@ -397,15 +401,15 @@ def commit():
     return lines("rev-parse", "--short", "HEAD") + changed
 
 
-def write_row(judgement, good, result, minutes):
-    """Puts the row into the table, in the place of the one that was there."""
+def write_row(judgement, judged, good, result, minutes):
+    """Puts the row into the table, in the place of the one that was there. judged: the commit."""
     with open(DOCUMENT, encoding="utf-8") as file:
         text = file.read()
     found = TABLE.search(text)
     if found is None:
         sys.exit("CONFORMANCE.md has no part <!-- judgements: ... --> <!-- end of judgements -->")
     rows = {row.split("|")[1].strip(): row for row in found[2].split("\n")[2:] if row}
-    rows[judgement.name] = (f"| {judgement.name} | {commit()} | {datetime.date.today()} "
+    rows[judgement.name] = (f"| {judgement.name} | {judged} | {datetime.date.today()} "
                             f"| {minutes:.0f} | {'yes' if good else 'NO'} | {result} |")
     order = [each.name for each in judgements()]
     kept = [rows[name] for name in order if name in rows]
@@ -434,11 +438,12 @@ def main():
     python = environment_python("oracle", "tests/requirements.txt")
     all_good = True
     for name in arguments.names or known:
+        judged = commit()  # others may commit meanwhile
         good, result, minutes = run(known[name], python, arguments.jobs)
         all_good = all_good and good
         print(f"{'good' if good else 'BAD '} {name:24} {minutes:6.1f} min  {result}", flush=True)
         if not arguments.no_table:
-            write_row(known[name], good, result, minutes)
+            write_row(known[name], judged, good, result, minutes)
     return 0 if all_good else 1
 
 

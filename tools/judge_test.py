@@ -63,10 +63,10 @@ class Judging(unittest.TestCase):
         judge.DOCUMENT = os.path.join(self.folder.name, "T.md")
         with open(judge.DOCUMENT, "w", encoding="utf-8") as file:
             file.write(DOCUMENT)
-        judge.write_row(judge.Judgement("labelled", []), False, "new", 2.4)
+        judge.write_row(judge.Judgement("labelled", []), "abc1234", False, "new", 2.4)
         with open(judge.DOCUMENT, encoding="utf-8") as file:
             text = file.read()
-        self.assertRegex(text, r"\| labelled \| \S+ \| \S+ \| 2 \| NO \| new \|\n<!-- end")
+        self.assertRegex(text, r"\| labelled \| abc1234 \| \S+ \| 2 \| NO \| new \|\n<!-- end")
         self.assertNotIn("old", text)
         self.assertNotIn("gone", text)
         self.assertTrue(text.endswith("rest\n"))
