@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: tenon authors
 # SPDX-License-Identifier: Apache-2.0
-"""The layer of gains in examples/vendor_hand moves the vendor's hand alike on every engine.
+"""The layer of gains in examples/vendor_hand moves the vendor's hand alike on every engine, and
+with gains by `tenon tune` it holds a can on each (vendor_grasp.py).
 
     test_vendor_hand.py ROOT TENON
 
@@ -16,6 +17,8 @@ import re
 import subprocess
 import sys
 import tempfile
+
+import vendor_grasp
 
 ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 SHARED = pathlib.Path(os.environ.get("TENON_SHARED_DIR", ROOT.parent / "shared"))
@@ -72,6 +75,7 @@ def main():
             closed = float(rows[75]["/Lhand/Physics/R_index_proximal_joint.position"])
             if off_law(rows) > WITHIN or abs(closed - 40) > 0.5:
                 faults.append(f"{engine}: {off_law(rows)} degrees off the laws, closed to {closed}")
+        faults += vendor_grasp.faults_of(tenon, ASSET, engines, folder)
     for fault in faults:
         print(fault)
     return 1 if faults else 0
