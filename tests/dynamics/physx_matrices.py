@@ -8,10 +8,11 @@
 Runs in an environment with ovphysx (tests/engines_beside/requirements-ovphysx.txt). COUNT robots
 (40 without it), an even choice of the descriptions in build/robots, which
 tests/convert/ten_robots.py makes, are converted by tenon. ovphysx reads each asset on the
-processor, and its joints are put where `tenon inertia --pose` puts them. Two blocks do not depend on how PhysX counts the motion of
-the root: that of the joints while the root stands, compared where both have the same root, and that
-of the joints while nothing holds a free root. PhysX computes in single precision and its matrix has
-no armature, which is taken off here: every number agrees to 1e-4 of the size of its row and column.
+processor, and its joints are put where `tenon inertia --pose` puts them. Two blocks do not depend
+on how PhysX counts the motion of the root: that of the joints while the root stands, compared where
+both have the same root, and that of the joints while nothing holds a free root. PhysX computes in
+single precision and its matrix has no armature, which is taken off here: every number agrees to
+1e-4 of the size of its row and column.
 """
 
 import collections
