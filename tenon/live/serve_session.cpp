@@ -22,9 +22,10 @@ namespace {
 
 using PaceClock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostWaiting = 4096;       // messages not yet looked at
-constexpr std::size_t kMostWaitingOfOne = 1024;  // of one client
-constexpr std::size_t kMostLate = 16;            // answers that are to be made
+// Not yet looked at, of one client; what others send closes nobody's connection.
+constexpr std::size_t kMostMessages = 1024;
+constexpr std::size_t kMostMessageBytes = 2 << 20;
+constexpr std::size_t kMostLate = 16;  // answers that are to be made
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
 constexpr auto kIdleTime = std::chrono::milliseconds(100);  // also between looks at files
 
@@ -43,6 +44,12 @@ struct Letters {
   std::deque<MadeAnswer> answers;
 };
 
+/// Messages that wait, of one client.
+struct Waiting {
+  std::size_t count = 0;
+  std::size_t bytes = 0;
+};
+
 /// From the other threads to that of the session.
 class Inbox {
  public:
@@ -57,11 +64,12 @@ class Inbox {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (event.kind == serve::ClientEvent::Kind::Said) {
-        std::size_t& own = waiting_of_[event.client];
-        if (own >= kMostWaitingOfOne || waiting_.events.size() >= kMostWaiting) {
+        Waiting& own = waiting_of_[event.client];
+        if (own.count >= kMostMessages || own.bytes > kMostMessageBytes) {
           return false;
         }
-        ++own;
+        ++own.count;
+        own.bytes += event.text.size();
       }
       waiting_.events.push_back(std::move(event));
     }
@@ -90,7 +98,7 @@ class Inbox {
   std::mutex mutex_;
   std::condition_variable filled_;
   Letters waiting_;
-  std::map<serve::Client, std::size_t> waiting_of_;  // messages
+  std::map<serve::Client, Waiting> waiting_of_;
   bool ended_ = false;
 };
 
