@@ -77,9 +77,8 @@ class Own:
     def __init__(self, asset, chance):
         physics = tenon("physics", asset)
         for row in tenon("physics", asset, "--mass")["masses"]:
-            if row["authored"]["mass"] is None:
-                raise LookupError(f"the mass of {row['path'].rsplit('/', 1)[1]} is computed, by "
-                                  "PhysX of its own hulls")
+            if None in (row["authored"]["mass"], row["authored"]["inertia"]):
+                raise LookupError("a mass or inertia is computed, by PhysX of its own hulls")
         joints = {joint["path"]: joint for joint in physics["joints"]}
         followers = {path for path, joint in joints.items() if joint["mimics"]}
         pose = random_pose(tenon("inertia", asset)["coordinates"], followers, chance)
