@@ -33,6 +33,8 @@ except ImportError as error:
     print(f"skipped: {error} (tests/convert/ten_robots.py fetches it)")
     sys.exit(77)
 
+from random_poses import descriptions, random_pose  # noqa: E402
+
 CLOSE = 1e-9
 
 
@@ -49,27 +51,6 @@ def why(answer):
     """The first error of an answer."""
     return next((finding["message"] for finding in answer["diagnostics"]
                  if finding.get("severity") == "error"), "no error is told")
-
-
-def chosen():
-    """An even choice of the URDF files, and of the MJCF files of dm_control's suite."""
-    files = sorted(ROBOTS.rglob("*.urdf"))
-    files += sorted((ROBOTS / "dm_control/suite").glob("*.xml"))
-    step = max(1, len(files) // COUNT)
-    return files[::step]
-
-
-def random_pose(rows, followers, chance):
-    """--pose for all joints that lead, within pi/2 of where they are."""
-    words = []
-    for row in rows:
-        if row["joint"] is None or (row["joint"], row["dof"]) in followers:
-            continue
-        if row["dof"].startswith("rot"):
-            words.append(f"{row['joint']}:{row['dof']}={chance.uniform(-1.5, 1.5)!r}rad")
-        else:
-            words.append(f"{row['joint']}:{row['dof']}={chance.uniform(-0.05, 0.05)!r}m")
-    return ",".join(words)
 
 
 def to_com(model, data, body):
@@ -275,7 +256,7 @@ def convert(source, work):
 
 
 def main():
-    files = chosen()
+    files = descriptions(ROBOTS, COUNT)
     if not files:
         print("skipped: there are no published robots in build/robots")
         return 77

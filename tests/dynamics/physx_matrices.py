@@ -37,6 +37,8 @@ except ImportError as error:
     print(f"skipped: {error}", file=RESULTS)
     sys.exit(77)
 
+from random_poses import descriptions, random_pose  # noqa: E402
+
 ROOT = pathlib.Path(sys.argv[1])
 TENON = sys.argv[2]
 COUNT = int(sys.argv[3]) if len(sys.argv) > 3 else 40
@@ -58,18 +60,6 @@ def tenon(*arguments):
     return answer
 
 
-def random_pose(rows, followers, chance):
-    """--pose for all joints that lead."""
-    words = []
-    for row in rows:
-        if row["joint"] is None or row["joint"] in followers:
-            continue
-        turns = row["dof"].startswith("rot")
-        reach, unit = (1.5, "rad") if turns else (0.05, "m")
-        words.append(f"{row['joint']}:{row['dof']}={chance.uniform(-reach, reach)!r}{unit}")
-    return ",".join(words)
-
-
 class Own:
     """What tenon says of an asset: coordinates of joints by name, and its mass matrix without
     armature."""
@@ -80,7 +70,8 @@ class Own:
             if None in (row["authored"]["mass"], row["authored"]["inertia"]):
                 raise LookupError("a mass or inertia is computed, by PhysX of its own hulls")
         joints = {joint["path"]: joint for joint in physics["joints"]}
-        followers = {path for path, joint in joints.items() if joint["mimics"]}
+        followers = {(path, mimic["dof"]) for path, joint in joints.items()
+                     for mimic in joint["mimics"]}
         pose = random_pose(tenon("inertia", asset)["coordinates"], followers, chance)
         answer = tenon("inertia", asset, "--matrix", *(["--pose", pose] if pose else []))
         rows = answer["coordinates"]
@@ -154,12 +145,10 @@ def compare(physx, source, folder, chance):
 
 
 def main():
-    files = sorted(ROBOTS.rglob("*.urdf"))
-    files += sorted((ROBOTS / "dm_control/suite").glob("*.xml"))
+    files = descriptions(ROBOTS, COUNT)
     if not files:
         say("skipped: there are no published robots in build/robots")
         return 77
-    files = files[::max(1, len(files) // COUNT)]
     ovphysx.set_global_config(GlobalConfigKey.NUM_THREADS, 0)
     ovphysx.PhysX.set_cpu_mode(True)
     physx = ovphysx.PhysX()
@@ -191,4 +180,4 @@ def main():
 if __name__ == "__main__":
     code = main()
     RESULTS.flush()
-    os._exit(code)  # the libraries' own ends are left out
+    os._exit(code)  # without the libraries' own ends

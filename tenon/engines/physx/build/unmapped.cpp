@@ -49,7 +49,8 @@ void report_drives(Build& build, Index index) {
     }
     if (driven && map.d6 != nullptr && has_spring(joint) && !acts_beside_drive(joint, map, dof)) {
       build.report(joint.path, "damping",
-                   "joints outside of articulations have a drive of bounded force alone");
+                   "beside a drive of bounded force or by acceleration joints outside of "
+                   "articulations have no spring or damper");
     }
     swings += driven && map.d6 != nullptr && is_angular(dof) && slot_of(dof, map.main).number != 0;
   }

@@ -81,16 +81,17 @@ bool is_reduced(const JointMap& map) {
   return map.role == JointRole::Reduced && map.dofs.free.size() == 1;
 }
 
-bool is_bounded(const Drive& drive) { return drive.max_force < scene::kUnlimited; }
+/// A force without a bound, to which forces of springs and dampers can be added.
+bool is_plain_force(const Drive& drive) {
+  return !drive.acceleration && drive.max_force == scene::kUnlimited;
+}
 
 /// The drive of a joint along a coordinate, with the joint's spring and damper where it is a force
 /// without a bound; without a drive these alone, or friction as a damper of bounded force.
 AxisLaw law_of(const Joint& joint, Dof dof) {
   if (const Drive* drive = find_acting(joint, dof)) {
     const AxisLaw law = law_of_drive(*drive);
-    return has_spring(joint) && !drive->acceleration && !is_bounded(*drive)
-               ? sum_of(law, law_of_spring(joint))
-               : law;
+    return has_spring(joint) && is_plain_force(*drive) ? sum_of(law, law_of_spring(joint)) : law;
   }
   if (has_spring(joint)) {
     return law_of_spring(joint);
@@ -152,7 +153,7 @@ AxisLaw law_with_spring(const SpringBesideDrive& beside) {
 void write_reduced(const Joint& joint, JointMap& map, double time_step) {
   const Dof dof = map.dofs.free.front().dof;
   const Drive* drive = find_acting(joint, dof);
-  if (drive == nullptr || !has_spring(joint) || (!drive->acceleration && !is_bounded(*drive))) {
+  if (drive == nullptr || !has_spring(joint) || is_plain_force(*drive)) {
     map.beside.reset();
     return write_law(law_of(joint, dof), map, time_step);
   }
@@ -208,8 +209,7 @@ bool is_driven(const Joint& joint, Dof dof) { return find_acting(joint, dof) != 
 
 bool acts_beside_drive(const Joint& joint, const JointMap& map, Dof dof) {
   const Drive* drive = find_acting(joint, dof);
-  return drive != nullptr && has_spring(joint) &&
-         (is_reduced(map) || (!drive->acceleration && !is_bounded(*drive)));
+  return drive != nullptr && has_spring(joint) && (is_reduced(map) || is_plain_force(*drive));
 }
 
 std::optional<double> drive_effort(const Joint& joint, const JointMap& map, const Drive& drive,
