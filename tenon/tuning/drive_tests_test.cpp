@@ -36,6 +36,7 @@ class DriveTest : public testing::Test {
       const bool floats = scene.scenes[0].gravity == Vec3d{} && load_ != 0 && weighs_;
       auto made = std::make_unique<SpringSimulation>(scene, 2, floats ? 0 : load_);
       made->time_step_ = simulation.time_step > 0 ? simulation.time_step : 0.002;
+      made->parts_ = parts_;
       made->stop = stop_;
       made->explodes_above = explodes_above_;
       return std::unique_ptr<engines::Simulation>(std::move(made));
@@ -53,6 +54,7 @@ class DriveTest : public testing::Test {
   scene::Joint& joint() { return scene_.joints[0]; }
 
   scene::PhysicsScene scene_;
+  int parts_ = 20;
   double load_ = 0;
   bool weighs_ = false;
   double stop_ = scene::kUnlimited;
@@ -121,6 +123,20 @@ TEST_F(DriveTest, StepIsTheForm) {
   EXPECT_NEAR(result.step->overshoot, overshoot_of(0.3), 0.01);
   EXPECT_NEAR(result.step->rise_time.value_or(0), rise_time_of({20, 0.3}), 0.002);
   EXPECT_TRUE(says(result, "overshoot 37"));
+}
+
+TEST_F(DriveTest, ACoarseStepIsFoundToBeTheCause) {
+  DriveTestOptions options;
+  options.kind = TestKind::Step;
+  parts_ = 1;
+  for (const double coarse : {0.02, 0.05}) {  // [s]; a quarter is by the form, a sixteenth
+    options.time_step = coarse;
+    const DriveTestResult result = run(options).results.at(0);
+    ASSERT_TRUE(result.form.has_value());
+    EXPECT_FALSE(result.form->by_form) << coarse;
+    EXPECT_EQ(result.form->causes, std::vector{StepCause::TimeStep}) << coarse;
+    EXPECT_TRUE(result.form->without.has_value()) << coarse;
+  }
 }
 
 TEST_F(DriveTest, SineLagsAsTheForm) {

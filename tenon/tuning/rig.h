@@ -88,6 +88,7 @@ struct TestInputs {
 
 /// A scene from which something was taken away, and its simulation.
 struct ReducedScene {
+  double time_step = 0;  ///< that was asked for [s]; 0: the engine's
   std::unique_ptr<scene::PhysicsScene> scene;
   std::unique_ptr<Rig> rig;
 };

@@ -41,7 +41,7 @@ constexpr std::array kCauses{
     NamedCause{StepCause::Gravity, "gravity", "gravity"},
 };
 
-constexpr double kFiner = 0.25;      // of the time step
+constexpr std::array kFiner{0.25, 0.0625};  // of the time step, tried one after the other
 constexpr double kStiffer = 100;     // of the frequency of other drives, as far as steps follow
 constexpr double kStiffestStep = 1;  // of their omega dt
 constexpr std::size_t kKeptScenes = 16;
@@ -163,9 +163,13 @@ class Causes {
     }
     away_ = causes_in(run_.in.scene, run_.in.rows);
     TENON_TRY(found_, step_without(away_));
-    const double finer_count = static_cast<double>(result_.signal.size()) / kFiner;
-    if (!found_ && finer_count < static_cast<double>(limits::kRecordedStates)) {
+    for (const double finer : kFiner) {
+      const double count = static_cast<double>(result_.signal.size()) / finer;
+      if (found_ || count >= static_cast<double>(limits::kRecordedStates)) {
+        break;
+      }
       away_ |= bit_of(StepCause::TimeStep);
+      finer_ = finer;
       TENON_TRY(found_, step_without(away_));
     }
     if (!found_) {
@@ -229,18 +233,20 @@ class Causes {
   }
 
   Result<Rig*> rig_without(unsigned causes) {
+    double step = run_.in.options.time_step;
+    if (has_cause(causes, StepCause::TimeStep)) {
+      TENON_TRY(const Rig* coarse, rig_without(causes & ~bit_of(StepCause::TimeStep)));
+      step = coarse->time_step() * finer_;
+    }
     if (run_.reduced.size() >= kKeptScenes && !run_.reduced.contains(causes)) {
       run_.reduced.clear();
     }
     ReducedScene& kept = run_.reduced[causes];
-    if (!kept.rig) {
+    if (!kept.rig || kept.time_step != step) {
+      kept.rig = nullptr;
+      kept.time_step = step;
       kept.scene =
           std::make_unique<scene::PhysicsScene>(scene_without(run_.in.scene, run_.in.rows, causes));
-      double step = run_.in.options.time_step;
-      if (has_cause(causes, StepCause::TimeStep)) {
-        TENON_TRY(const Rig* coarse, rig_without(causes & ~bit_of(StepCause::TimeStep)));
-        step = coarse->time_step() * kFiner;
-      }
       TENON_TRY(Rig rig, Rig::make(*kept.scene, run_.in.rows, run_.in.make, step));
       kept.rig = std::make_unique<Rig>(std::move(rig));
     }
@@ -270,6 +276,7 @@ class Causes {
   DriveTestResult& result_;
   const DriveRow& row_;
   unsigned away_ = 0;
+  double finer_ = kFiner.front();
   std::optional<StepMetrics> found_;
 };
 

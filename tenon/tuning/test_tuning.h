@@ -74,15 +74,15 @@ class SpringSimulation : public engines::Simulation {
     SpringSimulation::reset().has_value();
   }
 
+  int parts_ = 20;  // of a step
   double time_step_ = 0.002;
   double stop = scene::kUnlimited;            ///< nothing goes beyond it: an obstacle
   double explodes_above = scene::kUnlimited;  ///< stiffness
 
   Result<void> step() override {
-    constexpr int kParts = 20;
-    const double part = time_step_ / kParts;
+    const double part = time_step_ / parts_;
     for (Index j = 0; j < scene_.joints.size(); ++j) {
-      for (int i = 0; i < kParts; ++i) {
+      for (int i = 0; i < parts_; ++i) {
         move(j, part);
       }
     }
