@@ -87,7 +87,7 @@ std::string regime_of(const Json& drive) {
   return now.is_null() ? "-" : now.get<std::string>();
 }
 
-std::string drives_text(const Json& tuned, const JointNames& names) {
+std::string tuned_drives_text(const Json& tuned, const JointNames& names) {
   Rows rows = {{"joint", "drive", "stiffness", "damping", "inertia", "frequency [Hz]",
                 "damping ratio", "regime", "note"}};
   for (const Json& drive : tuned["drives"]) {
@@ -210,7 +210,7 @@ std::string tune_text(const Json& tuned, bool saved) {
     return "no joints: choose a variant with physics, --physics\n";
   }
   const JointNames names(tuned);
-  std::string text = drives_text(tuned, names);
+  std::string text = tuned_drives_text(tuned, names);
   if (lacks_drives(tuned)) {
     const std::string advice =
         "to give each one: tenon add ASSET '.*=drive' --match --stiffness 10 --damping 1";

@@ -98,7 +98,7 @@ std::string kinds_text() {
   std::string text =
       "Kinds, and what each takes. Those that stand somewhere take --at, --rotate and --scale, "
       "too.\n";
-  for (const Kind& kind : authoring_kinds()) {
+  for (const AuthoringKind& kind : authoring_kinds()) {
     std::string line = "  " + std::string(kind.name);
     line.resize(std::max<std::size_t>(line.size() + 2, 18), ' ');
     line += kind.about;

@@ -3,7 +3,6 @@
 #include "tenon/answers/difference_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,8 +19,6 @@ Json side_json(const layer::Value& value) {
   return value.empty() ? Json(nullptr) : Json(shown_side(value));
 }
 
-Json number_if_finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json fact_json(const scene::Fact& fact) {
   if (fact.name.empty()) {
     return nullptr;
@@ -30,11 +27,11 @@ Json fact_json(const scene::Fact& fact) {
     return fact.word;
   }
   if (fact.numbers.size() == 1) {
-    return number_if_finite(fact.numbers.front());
+    return finite_or_null(fact.numbers.front());
   }
   Json numbers = Json::array();
   for (const double number : fact.numbers) {
-    numbers.push_back(number_if_finite(number));
+    numbers.push_back(finite_or_null(number));
   }
   return numbers;
 }
@@ -81,7 +78,7 @@ Json difference_json(const diff::Difference& difference) {
   } else {
     row["elements"] = difference.elements;
     row["differentElements"] = difference.count;
-    row["largest"] = number_if_finite(difference.largest);
+    row["largest"] = finite_or_null(difference.largest);
   }
   return row;
 }
@@ -96,7 +93,7 @@ Json difference_json(const scene::SceneDifference& difference) {
   row["unit"] = or_null(named.unit);
   row["before"] = fact_json(difference.before);
   row["after"] = fact_json(difference.after);
-  row["largest"] = number_if_finite(difference.largest);
+  row["largest"] = finite_or_null(difference.largest);
   return row;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,10 +14,6 @@ namespace {
 
 using scene::Dof;
 using scene::Joint;
-
-Json finite_or_null(double value) {
-  return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr);
-}
 
 Json pose_json(const Pose& pose) {
   const double sign = pose.orientation.w < 0 ? -1 : 1;

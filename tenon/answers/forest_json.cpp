@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tenon/answers/or_null.h"
 #include "tenon/scene/joint_dofs.h"
 #include "tenon/scene/physics_counts.h"
 
@@ -40,7 +41,7 @@ struct Forest {
 };
 
 Json bound_json(double bound, bool angular) {
-  return std::isfinite(bound) ? Json(angular ? bound * 180 / M_PI : bound) : Json(nullptr);
+  return finite_or_null(angular ? bound * 180 / M_PI : bound);
 }
 
 bool is_driven(const scene::Joint& joint, scene::Dof dof) {

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/answers/inertia_json.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tenon/answers/or_null.h"
+
 namespace tenon::answers {
 namespace {
-
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json coordinate_json(const dynamics::Multibody& multibody, const dynamics::Dynamics& dynamics,
                      std::size_t i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +25,14 @@ inline Json file_or_null(const std::string& file) {
 }
 /// Null for the line or column 0, which does not exist.
 inline Json or_null(std::uint32_t number) { return number == 0 ? Json(nullptr) : Json(number); }
+
+/// Null for a number that is not finite; 0 for -0.
+inline Json finite_or_null(double number) {
+  return std::isfinite(number) ? Json(number + 0.0) : Json(nullptr);
+}
+inline Json finite_or_null(const std::optional<double>& number) {
+  return number ? finite_or_null(*number) : Json(nullptr);
+}
 
 template <class T, class ToJson>
 Json or_null(const std::optional<T>& value, ToJson to_json) {

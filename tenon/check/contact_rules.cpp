@@ -36,10 +36,6 @@ constexpr double kProposedGap = 0.05;    ///< of the thickness of a body
 constexpr double kNarrowGap = 0.03;      ///< of the sizes of two; less is as if they touched
 constexpr double kSameVelocity = 1e-6;   ///< [m/s]
 
-bool moves_freely(const scene::PhysicsScene& scene, const std::optional<Index>& body) {
-  return body && !scene.bodies[*body].kinematic;
-}
-
 std::vector<bool> jointed_bodies(const scene::PhysicsScene& scene) {
   std::vector<bool> jointed(scene.bodies.size(), false);
   for (const scene::Joint& joint : scene.joints) {
@@ -70,7 +66,7 @@ Supports supports_of(const scene::PhysicsScene& scene, const std::vector<Collide
   Supports supports;
   const auto add = [&](Index upper, Index lower) {
     const std::optional<Index> body = scene.colliders[upper].body;
-    if (!moves_freely(scene, body) || scene.colliders[lower].body == body) {
+    if (!scene.is_dynamic(body) || scene.colliders[lower].body == body) {
       return;
     }
     const Vec3d pull =
@@ -114,8 +110,7 @@ class BouncyRows {
     for (const auto& [a, b] : contacts) {
       const auto body_a = scene.colliders[a].body;
       const auto body_b = scene.colliders[b].body;
-      if (moves_freely(scene, body_a) && moves_freely(scene, body_b) &&
-          bounciness(a, b) >= kBouncy) {
+      if (scene.is_dynamic(body_a) && scene.is_dynamic(body_b) && bounciness(a, b) >= kBouncy) {
         join(*body_a, *body_b);
         bounciest_ = std::fmax(bounciest_, bounciness(a, b));
       }
@@ -202,7 +197,7 @@ void check_contact_ratio(const Subject& subject, Reporter& report) {
     const double most = (lower.size() == 1 ? kRatioOnOne : kRatioOnSeveral) *
                         std::fmax(1, kDefaultStep / step_of(scene, heavy));
     for (const std::optional<Index>& body : lower) {
-      if (moves_freely(scene, body) && !jointed[upper] && !jointed[*body] &&
+      if (scene.is_dynamic(body) && !jointed[upper] && !jointed[*body] &&
           share >= most * scene.bodies[*body].mass) {
         report_ratio(subject, heavy, scene.bodies[*body], share, most, report);
       }

@@ -303,13 +303,11 @@ void check_parallel_joints(const Subject& subject, Reporter& report) {
 }
 
 void check_joint_moves_something(const Subject& subject, Reporter& report) {
-  const auto is_dynamic = [&](const std::optional<Index>& body) {
-    return body && !subject.scene.bodies[*body].kinematic;
-  };
   for (const Joint& joint : subject.scene.joints) {
     const bool judged =
         is_without_place(subject, joint.body0) || is_without_place(subject, joint.body1);
-    if (joint.enabled && !judged && !is_dynamic(joint.body0) && !is_dynamic(joint.body1)) {
+    if (joint.enabled && !judged && !subject.scene.is_dynamic(joint.body0) &&
+        !subject.scene.is_dynamic(joint.body1)) {
       report.at(prim_of(subject, joint),
                 about_bodies(subject.scene, joint,
                              "neither side of the joint moves freely: it has no effect"),

@@ -236,7 +236,7 @@ void check_unbound_friction(const Subject& subject, Reporter& report) {
   bool moves = false;
   for (const scene::Collider& collider : subject.scene.colliders) {
     if (collider.enabled) {
-      moves = moves || (collider.body && !subject.scene.bodies[*collider.body].kinematic);
+      moves = moves || subject.scene.is_dynamic(collider.body);
       count += collider.material ? 0 : 1;
       first = first == nullptr && !collider.material ? &collider : first;
     }

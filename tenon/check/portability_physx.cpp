@@ -100,7 +100,7 @@ double own_share(const scene::PhysicsScene& scene, const Joint& joint, const Bod
 /// The only side of a joint that moves; null where both do.
 const Body* only_mover(const scene::PhysicsScene& scene, const Joint& joint) {
   const auto moving = [&](const std::optional<Index>& body) -> const Body* {
-    return body && !scene.bodies[*body].kinematic ? &scene.bodies[*body] : nullptr;
+    return scene.is_dynamic(body) ? &scene.bodies[*body] : nullptr;
   };
   const Body* a = moving(joint.body0);
   const Body* b = moving(joint.body1);
@@ -172,7 +172,7 @@ const scene::Collider* passed_collider(const Subject& subject, Index index, doub
 
 /// A collider of another body, or of none, lies where the body falls.
 bool lands_before(const Subject& subject, const std::optional<Index>& body, double seconds) {
-  if (!body || subject.scene.bodies[*body].kinematic) {
+  if (!subject.scene.is_dynamic(body)) {
     return false;
   }
   const Body& falling = subject.scene.bodies[*body];

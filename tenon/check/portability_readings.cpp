@@ -23,7 +23,7 @@ using scene::Collider;
 using scene::Index;
 
 constexpr double kSameSpeed = 1e-4;  ///< [m/s] and [rad/s]
-constexpr double kUnitLength = 1e-3;
+constexpr double kUnitGravity = 1e-3;
 constexpr double kSameFriction = 0.01;
 
 std::optional<Vec3d> authored_vector(const stage::Prim& prim, Token name) {
@@ -151,7 +151,7 @@ void check_physx_gravity(const Subject& subject, Reporter& report) {
               : "PhysX takes a negative magnitude as it is: bodies fall upwards there, with " +
                     digits(length(scene.gravity)) + " m/s^2 downwards here",
           "leave the magnitude out, or author a positive one");
-    } else if (size > 0 && std::fabs(size - 1) > kUnitLength && length(scene.gravity) > 0) {
+    } else if (size > 0 && std::fabs(size - 1) > kUnitGravity && length(scene.gravity) > 0) {
       report.at(prim, "physics:gravityDirection",
                 "PhysX multiplies gravity by the length of its direction: " +
                     digits(size * length(scene.gravity)) + " m/s^2 there, " +

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kNodeUnits = 8;         // of work to make a node
 constexpr std::size_t kNodesLookedAt = 4;     // for a unit, where nothing else is done with them
-constexpr std::size_t kElementsForUnit = 16;  // of paths
+constexpr std::size_t kElementsForNode = 16;  // of paths
 
 /// To make such a map, or only to find it: making one of many pairs has been counted.
 std::size_t map_units(const MapFunction& map) {
@@ -228,7 +228,7 @@ NodeId NodeGraph::find_site(const Site& site) const {
 void NodeGraph::descend(Path child_path) {
   const Path parent = child_path.parent();
   const Token name = child_path.name();
-  count(nodes_.size() * (1 + child_path.depth() / kElementsForUnit));
+  count(nodes_.size() * (1 + child_path.depth() / kElementsForNode));
   for (Node& node : nodes_) {
     node.path = node.path == parent ? child_path : node.path.child(name);
     node.due_to_ancestor = &node != nodes_.data();

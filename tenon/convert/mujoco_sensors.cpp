@@ -18,7 +18,7 @@ using robot::MujocoThing;
 
 constexpr const char* kType = "TenonMujocoSensor";
 
-Token own_name(const std::string& word) { return Token("tenon:mujoco:sensor:" + word); }
+Token sensor_name(const std::string& word) { return Token("tenon:mujoco:sensor:" + word); }
 
 class MujocoSensorWriter {
  public:
@@ -46,10 +46,10 @@ class MujocoSensorWriter {
     write_thing(prim, "object", sensor.object, *object);
     write_thing(prim, "reference", sensor.reference, *reference);
     if (!instrument->empty()) {
-      builder.set_relationship(prim, own_name("instrument"), {*instrument});
+      builder.set_relationship(prim, sensor_name("instrument"), {*instrument});
     }
     for (const robot::MujocoSetting& setting : sensor.settings) {
-      builder.set_custom(prim, own_name(setting.name), "double[]",
+      builder.set_custom(prim, sensor_name(setting.name), "double[]",
                          Value(layer::Array<double>(setting.numbers)));
     }
   }
@@ -57,9 +57,9 @@ class MujocoSensorWriter {
  private:
   void write_thing(Path prim, const std::string& role, const MujocoThing& thing, Path path) {
     if (!thing.kind.empty()) {
-      physics_.builder().set_custom(prim, own_name(role + "Type"), "token",
+      physics_.builder().set_custom(prim, sensor_name(role + "Type"), "token",
                                     Value(Token(thing.kind)));
-      physics_.builder().set_relationship(prim, own_name(role), {path});
+      physics_.builder().set_relationship(prim, sensor_name(role), {path});
     }
   }
 

@@ -138,8 +138,7 @@ class StartPairs {
 
   bool may_meet(Index a, Index b) const {
     const auto moves = [this](Index collider) {
-      const std::optional<Index> body = scene_.colliders[collider].body;
-      return body && !scene_.bodies[*body].kinematic;
+      return scene_.is_dynamic(scene_.colliders[collider].body);
     };
     return (moves(a) || moves(b)) && scene_.may_meet(a, b);
   }

@@ -7,7 +7,6 @@
 #include "tenon/live/live_asset.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -21,15 +20,14 @@
 namespace tenon::live {
 namespace {
 
+using answers::finite_or_null;
 using answers::Json;
-
-Json bound_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json dof_json(const scene::FreeDof& free) {
   return {{"dof", scene::dof_name(free.dof)},
           {"angular", scene::is_angular(free.dof)},
-          {"lower", bound_json(free.lower)},
-          {"upper", bound_json(free.upper)}};
+          {"lower", finite_or_null(free.lower)},
+          {"upper", finite_or_null(free.upper)}};
 }
 
 Json dofs_json(const scene::JointDofs& dofs) {
@@ -55,7 +53,7 @@ Json drives_json(const scene::Joint& joint) {
                     {"velocity", drive.target_velocity},
                     {"stiffness", drive.stiffness},
                     {"damping", drive.damping},
-                    {"maxForce", bound_json(drive.max_force)}});
+                    {"maxForce", finite_or_null(drive.max_force)}});
   }
   return rows;
 }

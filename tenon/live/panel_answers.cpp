@@ -7,7 +7,6 @@
 // that tables, tests and what is saved are made of the same numbers.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "tenon/answers/or_null.h"
@@ -113,7 +112,7 @@ Json gains_answer(const PanelState& state, const tuning::DriveRow& row,
   const double most =
       tuning::stiffest_stable(tuning::stepping_of(state.asset.engine, state.asset.scene()),
                               response ? response->ratio : 1, state.asset.world->time_step());
-  json["stableUpTo"] = std::isfinite(most) ? Json(most) : Json(nullptr);
+  json["stableUpTo"] = answers::finite_or_null(most);
   return json;
 }
 

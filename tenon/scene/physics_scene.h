@@ -531,6 +531,10 @@ struct PhysicsScene : SceneContents {
 
   /// Brings filter.sets_off up to date with what the joints are now (enabled, collision_enabled).
   void update_joint_pairs();
+  /// Whether forces move the body: it is not the world (none) and not kinematic.
+  bool is_dynamic(const std::optional<Index>& body) const {
+    return body && !bodies[*body].kinematic;
+  }
   /// Contacts between two colliders are possible: different bodies, enabled, same scene, not
   /// filtered, no triggers.
   bool may_collide(Index collider_a, Index collider_b) const;

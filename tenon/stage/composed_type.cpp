@@ -41,6 +41,11 @@ Specifier composed_specifier(const compose::PrimIndex& index) {
   return result;
 }
 
+bool is_active(const compose::PrimIndex& index) {
+  const bool* active = strongest_opinion<bool>(index, layer::fields::active);
+  return active == nullptr || *active;
+}
+
 Token composed_type_name(const compose::PrimIndex& index) {
   static const Token any_type{"__AnyType__"};
   for (const compose::Opinion& opinion : index.opinions()) {

@@ -24,6 +24,7 @@ const T* strongest_opinion(const compose::PrimIndex& index, Token field) {
 /// The strongest def or class wins over any over; a class that comes over a direct inherit or
 /// specialize arc only where nothing else defines the prim.
 layer::Specifier composed_specifier(const compose::PrimIndex& index);
+bool is_active(const compose::PrimIndex& index);
 /// Empty when no opinion names a type.
 Token composed_type_name(const compose::PrimIndex& index);
 /// The combined list edits of apiSchemas.

@@ -27,11 +27,6 @@ const compose::PrimIndex& empty_index() {
   return index;
 }
 
-bool is_active(const compose::PrimIndex& index) {
-  const bool* active = strongest_opinion<bool>(index, fields::active);
-  return active == nullptr || *active;
-}
-
 void set_flags(PrimData& prim, const PrimData& parent) {
   const compose::PrimIndex& index = *prim.index;
   prim.active = is_active(index);

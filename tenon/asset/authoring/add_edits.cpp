@@ -82,14 +82,14 @@ class Addition {
         diagnostics_(diagnostics) {}
 
   Result<void> make() {
-    const Kind& first = *wanted_.kinds.front();
+    const AuthoringKind& first = *wanted_.kinds.front();
     wish_ = edits_.size();
     if (first.makes_prim()) {
       TENON_CHECK(make_prim(first));
     } else {
       TENON_TRY(there_, need_in(stages_, wanted_.prim));
     }
-    for (const Kind* kind : wanted_.kinds) {
+    for (const AuthoringKind* kind : wanted_.kinds) {
       if (kind->makes_prim() && kind != &first) {
         return bad_option(
             wanted_.prim,
@@ -136,7 +136,7 @@ class Addition {
     return there_ ? there_.type_name() : Token(std::string(wanted_.kinds.front()->type));
   }
 
-  Result<void> make_prim(const Kind& kind) {
+  Result<void> make_prim(const AuthoringKind& kind) {
     kind_ = &kind;
     AssetEdit edit;
     edit.kind = Verdict::DefinePrim;
@@ -422,7 +422,7 @@ class Addition {
   AddedEdits& edits_;
   Diagnostics& diagnostics_;
   stage::Prim there_;  // invalid: it is made
-  const Kind* kind_ = nullptr;
+  const AuthoringKind* kind_ = nullptr;
   std::size_t wish_ = 0;
   std::string instance_;
 };

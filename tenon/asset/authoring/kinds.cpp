@@ -18,7 +18,7 @@ using Options = std::vector<KindOption>;
 
 constexpr std::string_view kPose[] = {"at", "rotate", "scale"};
 
-std::vector<Kind> shape_kinds() {
+std::vector<AuthoringKind> shape_kinds() {
   const KindOption radius{"radius", "radius"};
   const KindOption height{"height", "height"};
   const KindOption axis{"axis", "axis"};
@@ -67,7 +67,7 @@ std::vector<Kind> shape_kinds() {
   };
 }
 
-std::vector<Kind> look_kinds() {
+std::vector<AuthoringKind> look_kinds() {
   const KindOption intensity{"intensity", "inputs:intensity"};
   const KindOption color{"color", "inputs:color"};
   const KindOption radius{"radius", "inputs:radius"};
@@ -101,7 +101,7 @@ std::vector<Kind> look_kinds() {
   };
 }
 
-std::vector<Kind> physics_prim_kinds() {
+std::vector<AuthoringKind> physics_prim_kinds() {
   return {
       {.name = "scene",
        .about = "gravity, for the bodies of the asset",
@@ -136,9 +136,9 @@ std::vector<Kind> physics_prim_kinds() {
   };
 }
 
-Kind joint_kind(std::string_view name, std::string_view about, std::string_view type,
-                const Options& more) {
-  Kind kind{.name = name, .about = about, .type = type};
+AuthoringKind joint_kind(std::string_view name, std::string_view about, std::string_view type,
+                         const Options& more) {
+  AuthoringKind kind{.name = name, .about = about, .type = type};
   kind.options = {{"body0", "physics:body0"},
                   {"body1", "physics:body1"},
                   {"at", ""},
@@ -149,7 +149,7 @@ Kind joint_kind(std::string_view name, std::string_view about, std::string_view 
   return kind;
 }
 
-std::vector<Kind> joint_kinds() {
+std::vector<AuthoringKind> joint_kinds() {
   const KindOption axis{"axis", ""};
   const KindOption lower{"lower", "physics:lowerLimit"};
   const KindOption upper{"upper", "physics:upperLimit"};
@@ -167,7 +167,7 @@ std::vector<Kind> joint_kinds() {
   };
 }
 
-std::vector<Kind> api_kinds() {
+std::vector<AuthoringKind> api_kinds() {
   return {
       {.name = "body",
        .about = "a rigid body: the prim and all below it move together",
@@ -204,7 +204,7 @@ std::vector<Kind> api_kinds() {
   };
 }
 
-std::vector<Kind> joint_api_kinds() {
+std::vector<AuthoringKind> joint_api_kinds() {
   return {
       {.name = "limit",
        .about = "how far a degree of freedom of a joint goes",
@@ -234,7 +234,7 @@ std::vector<Kind> joint_api_kinds() {
   };
 }
 
-std::vector<Kind> structure_kinds() {
+std::vector<AuthoringKind> structure_kinds() {
   return {
       {.name = "variant",
        .about = "a variant of a set of the prim, without anything in it",
@@ -247,8 +247,8 @@ std::vector<Kind> structure_kinds() {
   };
 }
 
-std::vector<Kind> all_kinds() {
-  std::vector<Kind> kinds;
+std::vector<AuthoringKind> all_kinds() {
+  std::vector<AuthoringKind> kinds;
   for (const auto& part : {shape_kinds(), look_kinds(), physics_prim_kinds(), joint_kinds(),
                            api_kinds(), joint_api_kinds(), structure_kinds()}) {
     kinds.insert(kinds.end(), part.begin(), part.end());
@@ -351,37 +351,37 @@ std::vector<AuthoringOption> all_options() {
 
 }  // namespace
 
-bool Kind::takes_pose() const {
+bool AuthoringKind::takes_pose() const {
   return makes_prim() &&
          schema::Registry::instance().is_a(Token(std::string(type)), Token("Xformable"));
 }
 
-bool Kind::takes(std::string_view wanted) const {
+bool AuthoringKind::takes(std::string_view wanted) const {
   const bool pose = std::find(std::begin(kPose), std::end(kPose), wanted) != std::end(kPose);
   return option(wanted) != nullptr || (pose && takes_pose());
 }
 
-const KindOption* Kind::option(std::string_view wanted) const {
+const KindOption* AuthoringKind::option(std::string_view wanted) const {
   const auto found = std::find_if(options.begin(), options.end(),
                                   [&](const KindOption& one) { return one.name == wanted; });
   return found == options.end() ? nullptr : &*found;
 }
 
-const std::vector<Kind>& authoring_kinds() {
-  static const std::vector<Kind> kinds = all_kinds();
+const std::vector<AuthoringKind>& authoring_kinds() {
+  static const std::vector<AuthoringKind> kinds = all_kinds();
   return kinds;
 }
 
-const Kind* find_kind(std::string_view name) {
+const AuthoringKind* find_kind(std::string_view name) {
   const auto& kinds = authoring_kinds();
-  const auto found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const AuthoringKind& kind) { return kind.name == name; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
-  for (const Kind& kind : authoring_kinds()) {
+  for (const AuthoringKind& kind : authoring_kinds()) {
     names.emplace_back(kind.name);
   }
   return names;

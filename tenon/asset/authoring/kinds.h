@@ -26,7 +26,7 @@ struct KindOption {
                               ///< empty where the kind makes something else of it
 };
 
-struct Kind {
+struct AuthoringKind {
   std::string_view name;
   std::string_view about;
   std::string_view type = {};               ///< of the prim that it makes; empty: it is put on one
@@ -45,9 +45,9 @@ struct Kind {
   const KindOption* option(std::string_view name) const;
 };
 
-const std::vector<Kind>& authoring_kinds();
+const std::vector<AuthoringKind>& authoring_kinds();
 /// Null: no kind has that name.
-const Kind* find_kind(std::string_view name);
+const AuthoringKind* find_kind(std::string_view name);
 std::vector<std::string> kind_names();
 
 const std::vector<AuthoringOption>& authoring_options();

@@ -21,7 +21,7 @@ Token instanced(std::string_view text) {
   return Token(star == std::string::npos ? name : name.replace(star, 1, "rotX"));
 }
 
-std::vector<Token> schemas_of(const Kind& kind) {
+std::vector<Token> schemas_of(const AuthoringKind& kind) {
   std::vector<Token> apis;
   for (const std::string_view api : kind.apis) {
     apis.push_back(instanced(api));
@@ -31,7 +31,7 @@ std::vector<Token> schemas_of(const Kind& kind) {
 
 TEST(Kinds, TypesAndSchemasAreThoseOfTheTables) {
   const schema::Registry& registry = schema::Registry::instance();
-  for (const Kind& kind : authoring_kinds()) {
+  for (const AuthoringKind& kind : authoring_kinds()) {
     if (kind.makes_prim()) {
       const schema::Schema* type = registry.find(token(kind.type));
       ASSERT_NE(type, nullptr) << kind.name;
@@ -50,7 +50,7 @@ TEST(Kinds, TypesAndSchemasAreThoseOfTheTables) {
 }
 
 TEST(Kinds, PropertiesAreDeclaredBySchemasOfTheKind) {
-  for (const Kind& kind : authoring_kinds()) {
+  for (const AuthoringKind& kind : authoring_kinds()) {
     const schema::PrimDefinition definition(token(kind.type), schemas_of(kind));
     for (const KindOption& option : kind.options) {
       const bool binding = option.property == "material:binding:physics";
@@ -68,12 +68,12 @@ TEST(Kinds, NamesAreUniqueAndEveryOptionIsDescribedAndTaken) {
   for (const AuthoringOption& option : authoring_options()) {
     EXPECT_TRUE(options.insert(option.name).second) << option.name;
     bool taken = false;
-    for (const Kind& kind : authoring_kinds()) {
+    for (const AuthoringKind& kind : authoring_kinds()) {
       taken = taken || kind.takes(option.name);
     }
     EXPECT_TRUE(taken) << option.name;
   }
-  for (const Kind& kind : authoring_kinds()) {
+  for (const AuthoringKind& kind : authoring_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
     EXPECT_EQ(find_kind(kind.name), &kind);
     for (const KindOption& option : kind.options) {

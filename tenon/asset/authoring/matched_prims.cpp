@@ -34,7 +34,7 @@ std::vector<stage::Prim> prims_of(const stage::Stage& stage) {
 }
 
 /// A prim that a kind can be put on, and that has it not.
-bool takes_kind(const stage::Prim& prim, const Kind& kind,
+bool takes_kind(const stage::Prim& prim, const AuthoringKind& kind,
                 const std::map<std::string, std::string>& options) {
   if (!kind.on.empty() && !prim.is_a(Token(kind.on))) {
     return false;
@@ -55,7 +55,7 @@ bool takes_kind(const stage::Prim& prim, const Kind& kind,
          !prim.has_api(Token(with_instance(kind.apis.front(), instance)));
 }
 
-Error makes_prims(const Kind& kind) {
+Error makes_prims(const AuthoringKind& kind) {
   return Error(ErrorCode::Invalid,
                "--match is for what is put on prims, and " + std::string(kind.name) + " makes one")
       .with_rule("edit.bad-argument")
@@ -67,7 +67,7 @@ Result<std::vector<std::string>> matched(const Stages& stages, const std::string
   const std::size_t equals = text.rfind('=');
   const std::string names = equals == std::string::npos ? "" : text.substr(equals);
   TENON_TRY(const RequestedKinds asked, read_requested("/prim" + names, true));
-  for (const Kind* kind : asked.kinds) {
+  for (const AuthoringKind* kind : asked.kinds) {
     if (kind->makes_prim()) {
       return makes_prims(*kind);
     }
@@ -81,8 +81,9 @@ Result<std::vector<std::string>> matched(const Stages& stages, const std::string
         continue;
       }
       any = true;
-      if (std::all_of(asked.kinds.begin(), asked.kinds.end(),
-                      [&](const Kind* kind) { return takes_kind(prim, *kind, options); })) {
+      if (std::all_of(asked.kinds.begin(), asked.kinds.end(), [&](const AuthoringKind* kind) {
+            return takes_kind(prim, *kind, options);
+          })) {
         found.insert(prim.path());
       }
     }

@@ -37,7 +37,7 @@ class Removal {
     if (wanted_.kinds.empty()) {
       return remove_prim();
     }
-    for (const Kind* kind : wanted_.kinds) {
+    for (const AuthoringKind* kind : wanted_.kinds) {
       kind_ = kind;
       TENON_CHECK(kind->makes_prim() ? remove_prim() : take_off());
     }
@@ -339,7 +339,7 @@ class Removal {
   const RequestedKinds& wanted_;
   RemovedEdits& edits_;
   stage::Prim prim_;
-  const Kind* kind_ = nullptr;
+  const AuthoringKind* kind_ = nullptr;
 };
 
 /// To name what goes: of the options only these matter.

@@ -60,7 +60,7 @@ Error unknown_kind(const std::string& name) {
                       : "the kinds are: " + listed_kinds());
 }
 
-std::string options_of(const Kind& kind) {
+std::string options_of(const AuthoringKind& kind) {
   std::string text;
   for (const AuthoringOption& option : authoring_options()) {
     if (kind.takes(option.name)) {
@@ -72,10 +72,11 @@ std::string options_of(const Kind& kind) {
 
 /// The kind that takes an option and is put on a prim beside `kinds`; null where none or several
 /// do.
-const Kind* missing_kind(std::string_view option, const std::vector<const Kind*>& kinds) {
-  const Kind* found = nullptr;
-  for (const Kind& kind : authoring_kinds()) {
-    const bool fits = std::any_of(kinds.begin(), kinds.end(), [&](const Kind* one) {
+const AuthoringKind* missing_kind(std::string_view option,
+                                  const std::vector<const AuthoringKind*>& kinds) {
+  const AuthoringKind* found = nullptr;
+  for (const AuthoringKind& kind : authoring_kinds()) {
+    const bool fits = std::any_of(kinds.begin(), kinds.end(), [&](const AuthoringKind* one) {
       return kind.on.empty() ? one->takes_pose() || !one->makes_prim() : one->type == kind.on;
     });
     if (!kind.makes_prim() && fits && kind.takes(option)) {
@@ -88,16 +89,16 @@ const Kind* missing_kind(std::string_view option, const std::vector<const Kind*>
   return found;
 }
 
-Error untaken(const std::string& option, const std::vector<const Kind*>& kinds) {
+Error untaken(const std::string& option, const std::vector<const AuthoringKind*>& kinds) {
   std::string names;
   std::string list;
-  for (const Kind* kind : kinds) {
+  for (const AuthoringKind* kind : kinds) {
     names += (names.empty() ? "" : kind == kinds.back() ? " and " : ", ") + std::string(kind->name);
     list += std::string(kind->name) + ",";
   }
   std::string fix = "leave it out";
   if (!kinds.empty()) {
-    const Kind* missing = missing_kind(option, kinds);
+    const AuthoringKind* missing = missing_kind(option, kinds);
     const std::string first(kinds.front()->name);
     fix = missing == nullptr ? first + " takes " + options_of(*kinds.front())
                              : "it belongs to " + std::string(missing->name) + ": write " + list +
@@ -129,7 +130,7 @@ Result<RequestedKinds> read_requested(const std::string& text, bool kinds_needed
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
-    const Kind* kind = find_kind(name);
+    const AuthoringKind* kind = find_kind(name);
     if (kind == nullptr) {
       return unknown_kind(name);
     }
@@ -141,19 +142,19 @@ Result<RequestedKinds> read_requested(const std::string& text, bool kinds_needed
 
 Result<void> check_options(const AuthoringRequest& request,
                            const std::vector<RequestedKinds>& requested) {
-  std::vector<const Kind*> kinds;
+  std::vector<const AuthoringKind*> kinds;
   for (const RequestedKinds& one : requested) {
     kinds.insert(kinds.end(), one.kinds.begin(), one.kinds.end());
   }
   for (const auto& [name, value] : request.options) {
     const bool taken =
         std::any_of(kinds.begin(), kinds.end(),
-                    [&, &option = name](const Kind* kind) { return kind->takes(option); });
+                    [&, &option = name](const AuthoringKind* kind) { return kind->takes(option); });
     if (!taken) {
       return untaken(name, kinds);
     }
   }
-  for (const Kind* kind : kinds) {
+  for (const AuthoringKind* kind : kinds) {
     for (const std::string_view need : kind->needs) {
       if (!request.options.contains(std::string(need))) {
         return Error(ErrorCode::Invalid, std::string(kind->name) + " needs --" + std::string(need))
@@ -201,7 +202,7 @@ bool has_own_limits(Token joint) {
          registry.is_a(joint, Token("PhysicsPrismaticJoint"));
 }
 
-std::string instance_of(Token joint, const Kind& kind,
+std::string instance_of(Token joint, const AuthoringKind& kind,
                         const std::map<std::string, std::string>& options) {
   if (const auto given = options.find("dof"); given != options.end()) {
     return given->second;

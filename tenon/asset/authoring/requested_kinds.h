@@ -17,7 +17,7 @@ namespace tenon {
 /// One PATH=KIND,KIND of a request.
 struct RequestedKinds {
   Path prim;
-  std::vector<const Kind*> kinds;  ///< empty: the prim as a whole
+  std::vector<const AuthoringKind*> kinds;  ///< empty: the prim as a whole
 };
 
 /// Errors: Invalid (edit.bad-path, edit.unknown-kind with the nearest name).
@@ -41,7 +41,7 @@ Result<stage::Prim> need_in(const Stages& stages, Path prim);
 
 /// The instance of an API schema of a kind for joints of a type: what --dof says, or the only one
 /// of a hinge or slider, empty for others.
-std::string instance_of(Token joint, const Kind& kind,
+std::string instance_of(Token joint, const AuthoringKind& kind,
                         const std::map<std::string, std::string>& options);
 /// "limit:*:physics:low" -> "limit:rotX:physics:low".
 std::string with_instance(std::string_view name, const std::string& instance);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "tenon/answers/or_null.h"
@@ -10,6 +9,7 @@
 namespace tenon {
 namespace {
 
+using answers::finite_or_null;
 using answers::Json;
 using answers::or_null;
 
@@ -34,19 +34,17 @@ std::string verdict_text(BenchmarkVerdict verdict) {
   return kBenchmarkVerdicts[static_cast<std::size_t>(verdict)];
 }
 
-Json measured_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json benchmark_row_json(const BenchmarkRow& row) {
   Json numbers = Json::object();
   for (const auto& [name, value] : row.numbers) {
-    numbers[std::string(name)] = measured_number(value);
+    numbers[std::string(name)] = finite_or_null(value);
   }
   return {{"prim", or_null(row.prim)},
           {"axis", or_null(std::string(row.axis))},
           {"verdict", verdict_text(row.verdict)},
           {"measure", std::string(row.measure)},
-          {"measured", measured_number(row.measured)},
-          {"threshold", measured_number(row.threshold)},
+          {"measured", finite_or_null(row.measured)},
+          {"threshold", finite_or_null(row.threshold)},
           {"unit", std::string(row.unit)},
           {"reason", or_null(row.reason)},
           {"numbers", std::move(numbers)}};

@@ -64,8 +64,8 @@ class ColliderTable {
       row.path = collider.path;
       if (collider.body) {
         row.body = scene.bodies[*collider.body].path;
-        row.moves = !scene.bodies[*collider.body].kinematic;
       }
+      row.moves = scene.is_dynamic(collider.body);
       row.asked = collider.approximation;
       result_.rows.push_back(std::move(row));
     }

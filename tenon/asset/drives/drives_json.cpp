@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tenon/asset/drives/drives_json.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
+
+#include "tenon/answers/or_null.h"
 
 namespace tenon {
 namespace {
 
+using answers::finite_or_null;
 using answers::Json;
-
-Json bounded(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json drive_demand_json(const DriveDemand& drive) {
   Json row = Json::object();
@@ -20,18 +20,19 @@ Json drive_demand_json(const DriveDemand& drive) {
   row["type"] = drive.acceleration ? "acceleration" : "force";
   row["stiffness"] = drive.stiffness;
   row["damping"] = drive.damping;
-  row["maxEffort"] = bounded(drive.max_effort);
-  row["speedLimit"] = bounded(drive.speed_limit);
-  row["weight"] = bounded(drive.weight);
+  row["maxEffort"] = finite_or_null(drive.max_effort);
+  row["speedLimit"] = finite_or_null(drive.speed_limit);
+  row["weight"] = finite_or_null(drive.weight);
   row["weightAt"] = drive.weight_at;
-  row["inertia"] = Json::array({bounded(drive.least_inertia), bounded(drive.most_inertia)});
+  row["inertia"] =
+      Json::array({finite_or_null(drive.least_inertia), finite_or_null(drive.most_inertia)});
   row["tooWeak"] = drive.is_too_weak();
   row["followers"] = Json::array();
   for (const Path& follower : drive.followers) {
     row["followers"].push_back(follower.str());
   }
-  row["newMaxEffort"] = drive.new_effort ? bounded(*drive.new_effort) : Json(nullptr);
-  row["newSpeedLimit"] = drive.new_speed ? bounded(*drive.new_speed) : Json(nullptr);
+  row["newMaxEffort"] = drive.new_effort ? finite_or_null(*drive.new_effort) : Json(nullptr);
+  row["newSpeedLimit"] = drive.new_speed ? finite_or_null(*drive.new_speed) : Json(nullptr);
   return row;
 }
 

@@ -44,14 +44,12 @@ Result<std::vector<NamedStage>> stages_of(const std::string& path, const OpenOpt
   return stages;
 }
 
-std::string float_text(double value) { return shortest(static_cast<float>(value)); }
-
 AssetEdit set_number(const Path& prim, const std::string& property, double value,
                      const std::string& engine) {
   AssetEdit edit;
   edit.kind = AssetEdit::Kind::SetProperty;
   edit.object = prim.property(Token(property));
-  edit.value = float_text(value);
+  edit.value = shortest(static_cast<float>(value));
   edit.engine = engine;
   return edit;
 }
@@ -148,7 +146,7 @@ Result<std::vector<AssetEdit>> limit_edits(const std::string& path, const OpenOp
                                      prim.type_name() == "PhysicsPrismaticJoint");
       request.drive.push_back(drive.joint.str() +
                               (one_axis ? "" : ":" + std::string(dof_name(drive.dof))) +
-                              "=maxForce:" + float_text(authored));
+                              "=maxForce:" + shortest(static_cast<float>(authored)));
     }
     if (drive.new_speed) {
       add_speed(stages, drive, *drive.new_speed / (turns ? kRadians : units.length), speeds);

@@ -30,7 +30,7 @@ using Edits = std::vector<AssetEdit>;
 using Views = std::vector<AssetEditor::View>;
 
 /// What edits say of the drive of a joint.
-struct DriveWish {
+struct AskedDrive {
   bool angular = true;
   std::optional<double> stiffness;  ///< as the layers have them, per degree
   std::optional<double> damping;
@@ -147,19 +147,19 @@ class EngineForms {
       return;
     }
     const std::string key = name.substr(name.rfind(':') + 1);
-    std::optional<double> DriveWish::* const member = key == "stiffness"  ? &DriveWish::stiffness
-                                                      : key == "damping"  ? &DriveWish::damping
-                                                      : key == "maxForce" ? &DriveWish::max_force
-                                                                          : nullptr;
+    std::optional<double> AskedDrive::* const member = key == "stiffness"  ? &AskedDrive::stiffness
+                                                       : key == "damping"  ? &AskedDrive::damping
+                                                       : key == "maxForce" ? &AskedDrive::max_force
+                                                                           : nullptr;
     if (member != nullptr) {
-      DriveWish& wish = drives_[edit.object.prim()];
+      AskedDrive& wish = drives_[edit.object.prim()];
       wish.*member = number;
       wish.angular = angular;
       wish.edit = i;
     }
   }
 
-  void add_actuator_forms(Path joint, const DriveWish& wish) {
+  void add_actuator_forms(Path joint, const AskedDrive& wish) {
     for (const AssetEditor::View& view : views_) {
       answers::walk_prims(view.stage->pseudo_root(), [&](const stage::Prim& prim) {
         if (prim.type_name() == "MjcActuator" &&
@@ -185,7 +185,7 @@ class EngineForms {
     return text + "]";
   }
 
-  void add_actuator_form(const stage::Prim& actuator, const DriveWish& wish) {
+  void add_actuator_form(const stage::Prim& actuator, const AskedDrive& wish) {
     std::vector<double> bias = numbers(actuator, "mjc:biasPrm");
     std::vector<double> gain = numbers(actuator, "mjc:gainPrm");
     const std::vector<double> gears = numbers(actuator, "mjc:gear");
@@ -223,7 +223,7 @@ class EngineForms {
   Edits edits_;
   Edits file_forms_;
   const Views& views_;
-  std::map<Path, DriveWish> drives_;
+  std::map<Path, AskedDrive> drives_;
   std::set<std::string> added_;
 };
 

@@ -31,7 +31,7 @@ namespace {
 
 using answers::Json;
 using Clock = std::chrono::steady_clock;
-using Scenes = std::vector<std::unique_ptr<scene::PhysicsScene>>;
+using SceneList = std::vector<std::unique_ptr<scene::PhysicsScene>>;
 
 double elapsed_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -54,7 +54,7 @@ engines::EnvironmentOptions environment_options(const BenchOptions& options) {
 
 /// One model for each environment, of a scene of its own.
 Result<engines::Environments> make_each(const std::string& engine, const BenchOptions& options,
-                                        const scene::PhysicsScene& scene, Scenes& scenes,
+                                        const scene::PhysicsScene& scene, SceneList& scenes,
                                         const std::vector<EnvironmentEnd>& ends,
                                         Diagnostics& diagnostics) {
   const engines::SimulationOptions simulation = environment_options(options).simulation;
@@ -145,7 +145,7 @@ Result<std::size_t> steps_of(const BenchedAsset& benched) {
 }
 
 Result<engines::Environments> make_all(const BenchOptions& options,
-                                       const scene::PhysicsScene& scene, Scenes& scenes,
+                                       const scene::PhysicsScene& scene, SceneList& scenes,
                                        BenchedAsset& benched, Diagnostics& diagnostics) {
   if (needs_models(options)) {
     benched.scenes = options.environments;
@@ -180,7 +180,7 @@ Result<BenchedAsset> bench_asset(const std::string& path, const BenchOptions& op
   }
   const std::optional<double> before = resident_memory();
   const auto start = Clock::now();
-  Scenes scenes;
+  SceneList scenes;
   TENON_TRY(engines::Environments environments,
             make_all(options, scene, scenes, benched, diagnostics));
   TENON_CHECK(vary_all(options, scene, benched.environments, environments));

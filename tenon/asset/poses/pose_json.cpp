@@ -5,20 +5,20 @@
 // seen beside the value; a value whose joint is not there keeps its name alone.
 #include "tenon/asset/poses/pose_json.h"
 
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "tenon/answers/or_null.h"
+
 namespace tenon {
 namespace {
 
+using answers::finite_or_null;
 using answers::Json;
 
 constexpr double kOutside = 1e-5;  // of a limit, as values are in single precision [rad or m]
-
-Json finite_or_none(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json path_or_none(const Path& path) { return path.empty() ? Json(nullptr) : Json(path.str()); }
 
@@ -36,9 +36,9 @@ Json joint_json(const dynamics::Multibody& multibody, scene::Index index, double
   Json row = Json::object();
   row["joint"] = joint.path.str();
   row["dof"] = std::string(scene::dof_name(dof.dof));
-  row["value"] = finite_or_none(value);
-  row["lower"] = finite_or_none(dof.lower);
-  row["upper"] = finite_or_none(dof.upper);
+  row["value"] = finite_or_null(value);
+  row["lower"] = finite_or_null(dof.lower);
+  row["upper"] = finite_or_null(dof.upper);
   row["fixed"] = false;
   row["follows"] =
       mimic == nullptr ? Json(nullptr) : Json(multibody.scene().joints[mimic->leader].path.str());

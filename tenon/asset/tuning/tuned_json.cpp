@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tenon/answers/or_null.h"
 #include "tenon/asset/answers/edited_json.h"
 #include "tenon/base/text/text_number.h"
 #include "tenon/math/angle.h"
@@ -16,24 +17,21 @@
 namespace tenon {
 namespace {
 
+using answers::finite_or_null;
 using answers::Json;
 using tuning::DriveRow;
 using tuning::DriveTestResult;
 
-Json tuned_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json tuned_number(const std::optional<double>& value) {
-  return value ? tuned_number(*value) : Json(nullptr);
-}
-
 Json gains_json(const tuning::Gains& gains) {
-  return {{"stiffness", tuned_number(gains.stiffness)}, {"damping", tuned_number(gains.damping)}};
+  return {{"stiffness", finite_or_null(gains.stiffness)},
+          {"damping", finite_or_null(gains.damping)}};
 }
 
 /// The numbers of a drive as it is or is to be.
 Json tuned_row_json(const DriveRow& row, const tuning::Gains& authored) {
   Json json = gains_json(row.gains);
   json["authored"] = gains_json(authored);
-  json["inertia"] = row.coordinate ? tuned_number(row.load.inertia) : Json(nullptr);
+  json["inertia"] = row.coordinate ? finite_or_null(row.load.inertia) : Json(nullptr);
   json["frequency"] = nullptr;
   json["frequencyHz"] = nullptr;
   json["dampingRatio"] = nullptr;
@@ -68,19 +66,19 @@ Json limits_json(const DriveTestResult& result) {
     list.push_back({{"target", limit.target},
                     {"reached", limit.reached},
                     {"still", limit.still},
-                    {"settlingTime", tuned_number(limit.settling_time)},
-                    {"meanHoldError", tuned_number(limit.hold.mean)},
-                    {"maxHoldError", tuned_number(limit.hold.most)},
-                    {"at", tuned_number(limit.at)}});
+                    {"settlingTime", finite_or_null(limit.settling_time)},
+                    {"meanHoldError", finite_or_null(limit.hold.mean)},
+                    {"maxHoldError", finite_or_null(limit.hold.most)},
+                    {"at", finite_or_null(limit.at)}});
   }
   return list;
 }
 
 Json step_json(const tuning::StepMetrics& step) {
-  return {{"overshoot", tuned_number(step.overshoot)},
-          {"riseTime", tuned_number(step.rise_time)},
-          {"settlingTime", tuned_number(step.settling_time)},
-          {"steadyError", tuned_number(step.steady_error)}};
+  return {{"overshoot", finite_or_null(step.overshoot)},
+          {"riseTime", finite_or_null(step.rise_time)},
+          {"settlingTime", finite_or_null(step.settling_time)},
+          {"steadyError", finite_or_null(step.steady_error)}};
 }
 
 Json causes_json(const tuning::FormMatch& form) {
@@ -97,7 +95,7 @@ Json result_json(const TunedEngine& engine, const DriveTestResult& result) {
                {"axis", std::string(dof_name(row.dof))},
                {"verdict", std::string(verdict_name(result.verdict))},
                {"reasons", result.reasons},
-               {"saturation", tuned_number(result.saturation)}};
+               {"saturation", finite_or_null(result.saturation)}};
   if (!result.limits.empty()) {
     json["limits"] = limits_json(result);
   }
@@ -115,24 +113,24 @@ Json result_json(const TunedEngine& engine, const DriveTestResult& result) {
     }
   }
   if (result.sine) {
-    json["sine"] = {{"positionError", tuned_number(result.sine->position_error)},
-                    {"velocityError", tuned_number(result.sine->velocity_error)},
-                    {"lag", tuned_number(result.sine->lag)},
-                    {"gain", tuned_number(result.sine->gain)},
-                    {"offset", tuned_number(result.sine->offset)}};
+    json["sine"] = {{"positionError", finite_or_null(result.sine->position_error)},
+                    {"velocityError", finite_or_null(result.sine->velocity_error)},
+                    {"lag", finite_or_null(result.sine->lag)},
+                    {"gain", finite_or_null(result.sine->gain)},
+                    {"offset", finite_or_null(result.sine->offset)}};
     json["sine"]["bandwidthHz"] =
-        row.response ? tuned_number(tuning::bandwidth_of(*row.response) / (2 * kPi)) : nullptr;
+        row.response ? finite_or_null(tuning::bandwidth_of(*row.response) / (2 * kPi)) : nullptr;
   }
   if (result.stress) {
     json["stress"] = {{"sigma", result.stress->sigma},
-                      {"largestSpeed", tuned_number(result.stress->largest_speed)},
+                      {"largestSpeed", finite_or_null(result.stress->largest_speed)},
                       {"largestStableSigma", result.stress->largest_stable},
                       {"atLeast", result.stress->at_least}};
   }
   for (const tuning::StepsRow& step : result.steps) {
     Json one = {{"timeStep", step.time_step}};
     one.update(step_json(step.metrics));
-    one["gap"] = tuned_number(step.gap);
+    one["gap"] = finite_or_null(step.gap);
     json["steps"].push_back(std::move(one));
   }
   return json;
@@ -182,11 +180,11 @@ Json search_json(const TunedAsset& tuned, const TunedSearch& search) {
         {{"joint", drive.joint.str()},
          {"axis", std::string(dof_name(drive.row.dof))},
          {"met", row.found.met},
-         {"frequency", tuned_number(row.found.response.frequency)},
-         {"frequencyHz", tuned_number(row.found.response.frequency / (2 * kPi))},
-         {"dampingRatio", tuned_number(row.found.response.ratio)},
-         {"overshoot", tuned_number(row.found.overshoot)},
-         {"settlingTime", tuned_number(row.found.settling_time)},
+         {"frequency", finite_or_null(row.found.response.frequency)},
+         {"frequencyHz", finite_or_null(row.found.response.frequency / (2 * kPi))},
+         {"dampingRatio", finite_or_null(row.found.response.ratio)},
+         {"overshoot", finite_or_null(row.found.overshoot)},
+         {"settlingTime", finite_or_null(row.found.settling_time)},
          {"worst", row.found.worst},
          {"tries", row.found.tries},
          {"reasons", row.found.reasons}});
@@ -295,7 +293,7 @@ Json tested_json(const TunedEngine& engine, const DriveTestResult& result, std::
   const auto thinned = [&](const std::vector<double>& values) {
     Json list = Json::array();
     for (std::size_t i = 0; i < values.size(); i += step) {
-      list.push_back(tuned_number(values[i]));
+      list.push_back(finite_or_null(values[i]));
     }
     return list;
   };

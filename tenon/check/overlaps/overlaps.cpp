@@ -90,10 +90,6 @@ std::vector<Placed> placed_solids(const scene::PhysicsScene& scene, double gap) 
   return placed;
 }
 
-bool is_dynamic(const scene::PhysicsScene& scene, const Collider& collider) {
-  return collider.body && !scene.bodies[*collider.body].kinematic;
-}
-
 bool boxes_meet(const Placed& a, const Placed& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) {
@@ -124,7 +120,8 @@ std::vector<ColliderPair> near_pairs(const scene::PhysicsScene& scene,
         return found;
       }
       const Collider& b = scene.colliders[placed[j].collider];
-      if ((!is_dynamic(scene, a) && !is_dynamic(scene, b)) || !boxes_meet(placed[i], placed[j]) ||
+      if ((!scene.is_dynamic(a.body) && !scene.is_dynamic(b.body)) ||
+          !boxes_meet(placed[i], placed[j]) ||
           !scene.may_collide(placed[i].collider, placed[j].collider)) {
         continue;
       }
@@ -160,14 +157,14 @@ std::vector<ColliderPair> below_planes_at_start(const scene::PhysicsScene& scene
   std::vector<Placed> placed;
   for (Index i = 0; i < scene.colliders.size(); ++i) {
     const Collider& plane = scene.colliders[i];
-    if (!plane.enabled || plane.shape.kind != ShapeKind::Plane || is_dynamic(scene, plane)) {
+    if (!plane.enabled || plane.shape.kind != ShapeKind::Plane || scene.is_dynamic(plane.body)) {
       continue;
     }
     if (placed.empty()) {
       placed = placed_solids(scene, 0);
     }
     for (const Placed& item : placed) {
-      if (found.size() < most && is_dynamic(scene, scene.colliders[item.collider]) &&
+      if (found.size() < most && scene.is_dynamic(scene.colliders[item.collider].body) &&
           scene.may_collide(i, item.collider) && is_below(scene, plane, item)) {
         found.emplace_back(item.collider, i);
       }

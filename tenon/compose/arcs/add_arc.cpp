@@ -37,7 +37,7 @@ bool is_implied_class(ArcKind kind, NodeId parent, NodeId origin) {
   return is_class_based(kind) && parent != origin;
 }
 
-constexpr std::size_t kElementsForUnit = 8;  // of a path that are gone up
+constexpr std::size_t kElementsForArc = 8;  // of a path that are gone up
 
 /// Whether one site is at or below the other.
 bool nested(const NodeGraph& graph, const Site& a, const Site& b) {
@@ -46,7 +46,7 @@ bool nested(const NodeGraph& graph, const Site& a, const Site& b) {
     return false;
   }
   const auto [low, high] = std::minmax({a.path.depth(), b.path.depth()});
-  graph.count((high - low) / kElementsForUnit);
+  graph.count((high - low) / kElementsForArc);
   return a.path.has_prefix(b.path) || b.path.has_prefix(a.path);
 }
 

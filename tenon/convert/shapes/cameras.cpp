@@ -18,19 +18,19 @@ using robot::LightKind;
 constexpr double kTenths = 10;  // USD measures films in tenths of its unit
 constexpr double kPi = std::numbers::pi;
 
-Token own_name(const std::string& word) { return Token("tenon:mujoco:" + word); }
+Token mujoco_name(const std::string& word) { return Token("tenon:mujoco:" + word); }
 
 void write_own(RobotLayer& layer, const LinkPrims& links, Path prim,
                const robot::MujocoTracking& tracking,
                const std::vector<robot::MujocoSetting>& settings) {
   if (!tracking.mode.empty()) {
-    layer.builder().set_custom(prim, own_name("mode"), "token", Value(Token(tracking.mode)));
+    layer.builder().set_custom(prim, mujoco_name("mode"), "token", Value(Token(tracking.mode)));
   }
   if (tracking.target) {
-    layer.builder().set_relationship(prim, own_name("target"), {links[*tracking.target].path});
+    layer.builder().set_relationship(prim, mujoco_name("target"), {links[*tracking.target].path});
   }
   for (const robot::MujocoSetting& setting : settings) {
-    layer.builder().set_custom(prim, own_name(setting.name), "double[]",
+    layer.builder().set_custom(prim, mujoco_name(setting.name), "double[]",
                                Value(layer::Array<double>(setting.numbers)));
   }
 }
@@ -108,7 +108,7 @@ void write_light(RobotLayer& layer, const LinkPrims& links, Path link, NameScope
   if (!light.is_on) {
     builder.set_attribute(prim, "visibility", "token", Value(Token("invisible")));
   }
-  builder.set_custom(prim, own_name("unitIntensity"), "float", Value(static_cast<float>(white)));
+  builder.set_custom(prim, mujoco_name("unitIntensity"), "float", Value(static_cast<float>(white)));
   write_own(layer, links, prim, light.tracking, light.settings);
 }
 

@@ -12,10 +12,6 @@
 namespace tenon::physics {
 namespace {
 
-bool can_move(const PhysicsScene& scene, const Collider& collider) {
-  return collider.body && !scene.bodies[*collider.body].kinematic;
-}
-
 Index scene_of(const PhysicsScene& scene, const Collider& collider) {
   return collider.body ? scene.bodies[*collider.body].scene : collider.scene;
 }
@@ -58,7 +54,7 @@ class Reasons {
   }
 
   void nothing_moves() {
-    if (!can_move(scene_, first_) && !can_move(scene_, second_)) {
+    if (!scene_.is_dynamic(first_.body) && !scene_.is_dynamic(second_.body)) {
       add(first_.body || second_.body ? "S-27" : "S-49",
           "neither side can be moved: static and kinematic ones do not respond to each other");
     }

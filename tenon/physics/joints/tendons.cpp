@@ -36,17 +36,17 @@ struct TendonTokens {
 };
 
 /// Settings that are passed on as they are.
-constexpr const char* kSettings[] = {"mjc:actuatorfrclimited",
-                                     "mjc:actuatorfrcrange:max",
-                                     "mjc:actuatorfrcrange:min",
-                                     "mjc:group",
-                                     "mjc:margin",
-                                     "mjc:rgba",
-                                     "mjc:solimpfriction",
-                                     "mjc:solimplimit",
-                                     "mjc:solreffriction",
-                                     "mjc:solreflimit",
-                                     "mjc:width"};
+constexpr const char* kTendonSettings[] = {"mjc:actuatorfrclimited",
+                                           "mjc:actuatorfrcrange:max",
+                                           "mjc:actuatorfrcrange:min",
+                                           "mjc:group",
+                                           "mjc:margin",
+                                           "mjc:rgba",
+                                           "mjc:solimpfriction",
+                                           "mjc:solimplimit",
+                                           "mjc:solreffriction",
+                                           "mjc:solreflimit",
+                                           "mjc:width"};
 
 /// The turn from Z to another axis.
 Quatd turn_from_z(Token axis) {
@@ -241,7 +241,7 @@ class TendonReader {
     if (limited == "true" || (limited == "auto" && range[0] < range[1])) {
       tendon_.range = range;
     }
-    for (const char* name : kSettings) {
+    for (const char* name : kTendonSettings) {
       if (!found_.prim.attribute(Token(name)).get().empty() &&
           found_.prim.attribute(Token(name)).has_authored_value()) {
         if (auto setting = read_mujoco_setting(found_.prim, Token(name))) {

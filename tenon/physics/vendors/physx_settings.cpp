@@ -20,7 +20,7 @@ struct SettingRow {
 };
 
 // Sorted; each is TENON_READ in vendor_attributes.def.
-constexpr SettingRow kSettings[] = {
+constexpr SettingRow kPhysxSettings[] = {
     {"physxArticulation:sleepThreshold", 2, 0, 2},
     {"physxArticulation:solverPositionIterationCount"},
     {"physxArticulation:solverVelocityIterationCount"},
@@ -77,7 +77,7 @@ std::optional<VendorSetting> read_setting(const stage::Prim& prim, const Setting
 std::vector<VendorSetting> read_physx_settings(const stage::Prim& prim, std::string_view space,
                                                const Units& units) {
   std::vector<VendorSetting> settings;
-  for (const SettingRow& row : kSettings) {
+  for (const SettingRow& row : kPhysxSettings) {
     if (!row.name.starts_with(space)) {
       continue;
     }

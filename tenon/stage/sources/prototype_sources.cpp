@@ -11,11 +11,6 @@
 namespace tenon::stage {
 namespace {
 
-bool is_active(const compose::PrimIndex& index) {
-  const bool* active = strongest_opinion<bool>(index, layer::fields::active);
-  return active == nullptr || *active;
-}
-
 /// The mask as it looks from a prim down; empty when all is included.
 std::string mask_below(const std::set<Path>& mask, Path prim_path) {
   std::string text;

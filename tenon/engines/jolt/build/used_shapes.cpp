@@ -35,7 +35,7 @@ scene::TriangleMesh surface_of(const JPH::ConvexHullShape& hull, const Pose& pos
 
 UsedShape used_shape(Build& build, scene::Index index) {
   const scene::Collider& collider = build.scene.colliders[index];
-  const bool moves = collider.body.has_value() && !build.scene.bodies[*collider.body].kinematic;
+  const bool moves = build.scene.is_dynamic(collider.body);
   UsedShape used;
   for (const PlacedShape& part : shapes_of(build, index, moves)) {
     const JPH::EShapeSubType type = part.shape->GetSubType();

@@ -31,14 +31,12 @@ struct ClassKey {
   auto operator<=>(const ClassKey&) const = default;
 };
 
-bool moves(const scene::PhysicsScene& scene, const scene::Collider& collider) {
-  return collider.body.has_value() && !scene.bodies[*collider.body].kinematic;
-}
-
 ClassKey key_of(const scene::PhysicsScene& scene, std::size_t collider) {
   const scene::Collider& c = scene.colliders[collider];
-  ClassKey key{
-      moves(scene, c), c.body.has_value() ? scene.bodies[*c.body].scene : c.scene, {}, true};
+  ClassKey key{scene.is_dynamic(c.body),
+               c.body.has_value() ? scene.bodies[*c.body].scene : c.scene,
+               {},
+               true};
   if (collider < scene.filter.groups_of_collider.size()) {
     key.groups = scene.filter.groups_of_collider[collider];
   }

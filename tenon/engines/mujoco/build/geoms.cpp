@@ -202,7 +202,7 @@ class ColliderPass {
       body_ = build_.bodies[*collider_.body];
       pose_ = inverse(build_.engine_frames[*collider_.body]) * collider_.pose;
       is_static_ = build_.plan.bases[*collider_.body] == BodyBase::Fixed;
-      moves_freely_ = !build_.scene.bodies[*collider_.body].kinematic;
+      moves_freely_ = build_.scene.is_dynamic(collider_.body);
       world_ = build_.scene.bodies[*collider_.body].pose * collider_.pose;
       return;
     }

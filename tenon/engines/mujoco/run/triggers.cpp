@@ -9,10 +9,6 @@
 namespace tenon::engines::mujoco {
 namespace {
 
-bool moves(const scene::PhysicsScene& scene, const scene::Collider& collider) {
-  return collider.body.has_value() && !scene.bodies[*collider.body].kinematic;
-}
-
 bool geoms_overlap(const mjModel& m, mjData& d, int a, int b) {
   const double reach = m.geom_rbound[a] + m.geom_rbound[b];
   if (m.geom_rbound[a] > 0 && m.geom_rbound[b] > 0) {  // 0: a plane
@@ -46,7 +42,8 @@ Triggers::Triggers(const scene::PhysicsScene& scene) {
     }
     for (scene::Index j = 0; j < scene.colliders.size(); ++j) {
       const scene::Collider& other = scene.colliders[j];
-      if (!other.settings.trigger && (moves(scene, scene.colliders[i]) || other.body.has_value()) &&
+      if (!other.settings.trigger &&
+          (scene.is_dynamic(scene.colliders[i].body) || other.body.has_value()) &&
           scene.may_meet(i, j)) {
         pairs_.push_back({i, j});
       }

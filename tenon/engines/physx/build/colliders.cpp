@@ -98,7 +98,7 @@ px::PxRigidActor* make_static_actor(Build& build, Index index) {
 
 void add_shapes(Build& build, Index index, px::PxRigidActor& actor) {
   const Collider& collider = build.scene.colliders[index];
-  const bool moves = collider.body.has_value() && !build.scene.bodies[*collider.body].kinematic;
+  const bool moves = build.scene.is_dynamic(collider.body);
   const Pose local = collider.body.has_value() ? collider.pose : Pose{};
   std::vector<px::PxMaterial*> materials = materials_of(build, collider);
   for (const Geometry& geometry : geometry_of(build, collider, moves)) {

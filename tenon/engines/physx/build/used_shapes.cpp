@@ -28,7 +28,7 @@ scene::TriangleMesh surface_of(const px::PxConvexMesh& hull, const Pose& pose) {
 }
 
 UsedShape used_shape(Build& build, const scene::Collider& collider) {
-  const bool moves = collider.body.has_value() && !build.scene.bodies[*collider.body].kinematic;
+  const bool moves = build.scene.is_dynamic(collider.body);
   UsedShape used;
   for (const Geometry& geometry : geometry_of(build, collider, moves)) {
     const px::PxGeometryType::Enum type = geometry.shape.getType();

@@ -25,7 +25,7 @@ std::vector<Index> moved_bodies(const scene::PhysicsScene& scene, Index follower
   std::vector<Index> bodies;
   for (const Index joint : {follower, leader}) {
     for (const auto& body : {scene.joints[joint].body0, scene.joints[joint].body1}) {
-      if (body && !scene.bodies[*body].kinematic &&
+      if (scene.is_dynamic(body) &&
           std::find(bodies.begin(), bodies.end(), *body) == bodies.end()) {
         bodies.push_back(*body);
       }

@@ -163,7 +163,7 @@ void StepInputs::push_constraint(const Model& model, Index joint,
   const Pose frame1 = frame(source.body1, source.frame1);
   const Wrench wrench = effort_wrench(source, model.joints[joint].dofs, frame0, frame1, efforts);
   const auto act = [&](const std::optional<Index>& body, double sign) {
-    if (body && !scene_->bodies[*body].kinematic) {
+    if (scene_->is_dynamic(body)) {
       const Vec3d arm = frame1.position - read_center_of_mass(model, *body);
       push(model, *body, {wrench.force * sign, (wrench.torque + cross(arm, wrench.force)) * sign});
     }
