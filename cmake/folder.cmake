@@ -46,9 +46,9 @@ function(tenon_folder folder)
       set(speed plain)
     endif()
     tenon_speed(${library} ${speed})
-    tenon_precompile(${library} ${speed}_folder)
     tenon_unity(${library})
     target_link_libraries(${library} PUBLIC tenon_flags ${dependencies} ${arg_LIBRARIES})
+    tenon_precompile(${library} ${speed}_folder)
     if(NOT arg_OF_PROGRAM)
       set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_LIBRARIES ${library})
       set_property(GLOBAL APPEND PROPERTY TENON_FOLDER_NEEDS ${arg_LIBRARIES})
@@ -72,13 +72,12 @@ endfunction()
 # How releases of the target are compiled: `fast`, `small`, or `plain`, which is as all targets are.
 # GCC stops inlining where a unit has grown by 40 %, which costs units of many sources a tenth of
 # their speed; the bounds of `fast` let them be inlined like single files, for a fifth more to
-# compile. `small` is a third of the code. With TENON_QUICK what is not `fast` is not optimised.
+# compile. `small` is a third of the code. With TENON_QUICK nothing is optimised.
 function(tenon_speed target speed)
   if(TENON_QUICK)
-    if(NOT speed STREQUAL fast)  # checked copies need optimisation (cmake/hardening.cmake)
-      target_compile_options(${target} PRIVATE -O0 -U_FORTIFY_SOURCE)
-    endif()
-  elseif(speed STREQUAL small)
+    return()
+  endif()
+  if(speed STREQUAL small)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
   elseif(speed STREQUAL fast AND TENON_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     target_compile_options(

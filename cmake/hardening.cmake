@@ -5,12 +5,12 @@
 # addresses, checked copies of the C library. tests/release/hardening.py reads what is installed.
 #
 # Sanitizers and coverage bring their own and stay without; a build without optimisation cannot have
-# checked copies.
+# checked copies, and that of `make demo` (TENON_QUICK) is not for files of others.
 include(CheckPIESupported)
 include(CheckCXXSourceCompiles)
 check_pie_supported()
 
-if(TENON_SANITIZE OR TENON_SANITIZE_THREADS OR TENON_COVERAGE)
+if(TENON_QUICK OR TENON_SANITIZE OR TENON_SANITIZE_THREADS OR TENON_COVERAGE)
   return()
 endif()
 
