@@ -90,6 +90,10 @@ def judgements_of_engines():
                                      "build/release/bin/tenon", "docs/tuned-robots.md",
                                      "--robots", "50"],
                     "release", ["tenon_cli", "tenon_worker"])
+    yield Judgement("filtered_robots", ["{engine}", "-B", "tests/dynamics/filtered_robots.py", ".",
+                                        "build/release/bin/tenon"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/dynamics/requirements-filtered.txt")
     yield Judgement("mass_matrices", ["{python}", "-B", "tests/dynamics/mujoco_matrices.py", ".",
                                       "build/release/bin/tenon", "1000"],
                     "release", ["tenon_cli", "tenon_worker"])
