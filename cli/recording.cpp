@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tenon/asset/viewing/viewing_json.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/base/text/shown_path.h"
 
@@ -29,8 +30,8 @@ void tell_recording(const Report& report, const RecordedAsset& recorded,
                      std::to_string(options.height) + ", " +
                      std::to_string((recorded.contents.size() + 999) / 1000) + " kB";
   if (!recorded.codec.empty()) {
-    text += ", " + std::to_string(recorded.frames) + " frames, " +
-            rounded_text(recorded.duration, 4) + " s, " + recorded.codec;
+    text += ", " + counted(recorded.frames, "frame") + ", " + rounded_text(recorded.duration, 4) +
+            " s, " + recorded.codec;
   }
   report.note(text);
 }

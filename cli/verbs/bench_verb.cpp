@@ -14,6 +14,7 @@
 #include "cli/settings.h"
 #include "cli/verb.h"
 #include "tenon/asset/many_environments/bench_asset.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/base/text/shown_path.h"
@@ -60,10 +61,12 @@ std::string whole(const Json& number) {
 }
 
 void print_bench(const Json& bench) {
-  print("%s %s  %s environments on %zu threads, %s s in steps of %s s\n",
-        bench["engine"].get<std::string>().c_str(),
+  const bool single = bench["environments"] == 1;
+  print("%s %s  %s %s on %s, %s s in steps of %s s\n", bench["engine"].get<std::string>().c_str(),
         bench["engineVersion"].get<std::string>().c_str(), whole(bench["environments"]).c_str(),
-        bench["threads"].get<std::size_t>(), rounded_text(bench["duration"].get<double>()).c_str(),
+        single ? "environment" : "environments",
+        counted(bench["threads"].get<std::size_t>(), "thread").c_str(),
+        rounded_text(bench["duration"].get<double>()).c_str(),
         rounded_text(bench["timeStep"].get<double>()).c_str());
   print("set up in %s s, %s %s\n", rounded_text(bench["setupSeconds"].get<double>(), 3).c_str(),
         whole(bench["scenes"]).c_str(), bench["scenes"] == 1 ? "scene for all" : "scenes");

@@ -9,6 +9,7 @@
 #include "cli/verb.h"
 #include "tenon/asset/viewing/report_asset.h"
 #include "tenon/asset/viewing/viewing_json.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 
 namespace tenon::cli {
@@ -72,8 +73,8 @@ int run_report(const Globals& globals, const ReportArguments& arguments) {
   }
   if (arguments.output != "-") {
     report.note(shown_path(arguments.output) + ": " + std::to_string((size + 999) / 1000) +
-                " kB, " + std::to_string(made->triangles) + " triangles, " +
-                std::to_string(made->frames) + " frames; open it in a browser");
+                " kB, " + counted(made->triangles, "triangle") + ", " +
+                counted(made->frames, "frame") + "; open it in a browser");
   }
   return report.finish(kOk, std::move(answer));
 }

@@ -18,6 +18,7 @@
 #include "tenon/asset/simulating/simulated_json.h"
 #include "tenon/bake/record_outputs.h"
 #include "tenon/bake/write_log.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/grouped_digits.h"
 #include "tenon/base/text/rounded_text.h"
 #include "tenon/base/text/text_number.h"
@@ -123,9 +124,10 @@ void print_request(const Json& state) {
   }
   if (state.contains("commands")) {
     const Json& commands = state["commands"];
-    print("commands   %s rows of %zu columns from %s\n",
-          grouped_digits(commands["rows"].get<std::size_t>()).c_str(),
-          commands["columns"].get<std::size_t>(), commands["file"].get<std::string>().c_str());
+    print("commands   %s of %s from %s\n",
+          counted(commands["rows"].get<std::size_t>(), "row").c_str(),
+          counted(commands["columns"].get<std::size_t>(), "column").c_str(),
+          commands["file"].get<std::string>().c_str());
   }
   if (state.contains("rest") && state["rest"]["reached"].get<bool>()) {
     print("at rest since %g s\n", state["rest"]["since"].get<double>());
@@ -137,15 +139,17 @@ void print_state(const Json& state, bool verbose) {
       state.contains("realTimeFactor")
           ? "  " + rounded_text(state["realTimeFactor"].get<double>()) + " times real time"
           : "";
-  print("%s %s  %zu steps of %g s = %g s%s%s\n", state["engine"].get<std::string>().c_str(),
-        state["engineVersion"].get<std::string>().c_str(), state["steps"].get<std::size_t>(),
-        state["dt"].get<double>(), state["time"].get<double>(), rate.c_str(),
+  print("%s %s  %s of %g s = %g s%s%s\n", state["engine"].get<std::string>().c_str(),
+        state["engineVersion"].get<std::string>().c_str(),
+        counted(state["steps"].get<std::size_t>(), "step").c_str(), state["dt"].get<double>(),
+        state["time"].get<double>(), rate.c_str(),
         state["unstable"].get<bool>() ? "  UNSTABLE" : "");
   if (verbose) {
     print_settings(state["engineSettings"]);
   }
-  print("energy %.6g J -> %.6g J, %zu contacts\n", state["energy"]["initial"].get<double>(),
-        state["energy"]["final"].get<double>(), state["contacts"].get<std::size_t>());
+  print("energy %.6g J -> %.6g J, %s\n", state["energy"]["initial"].get<double>(),
+        state["energy"]["final"].get<double>(),
+        counted(state["contacts"].get<std::size_t>(), "contact").c_str());
   if (!state["joints"].empty()) {
     print_rows(state["joints"], "joints", "joint positions (degrees or stage units)");
   }

@@ -10,6 +10,7 @@
 #include "tenon/asset/answers/package_json.h"
 #include "tenon/asset/missing_input.h"
 #include "tenon/asset_policy.h"
+#include "tenon/base/text/counted.h"
 #include "tenon/base/text/shown_path.h"
 #include "tenon/pack_asset.h"
 
@@ -60,8 +61,8 @@ int pack(Report& report, const ZipArguments& options) {
     }
   }
   note_files(report, packed->files);
-  report.note(write ? shown_path(options.output) + ": " + std::to_string(packed->files.size()) +
-                          " files, " + std::to_string(size) + " bytes"
+  report.note(write ? shown_path(options.output) + ": " + counted(packed->files.size(), "file") +
+                          ", " + counted(size, "byte")
                     : "nothing is written: files are missing");
   PackedAnswer answer;
   answer.output = write ? options.output : "";

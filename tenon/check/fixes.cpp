@@ -18,6 +18,7 @@
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/physics/attribute_values.h"
 #include "tenon/physics/prim_roles.h"
 #include "tenon/stage/collections/material_binding.h"
 
@@ -319,8 +320,33 @@ std::optional<Fix> fix_guide_purpose(const Subject& subject, const Diagnostic& d
 
 namespace {
 
-/// Every spec of the property gets the name, unless the prim has a property of that name or a spec
-/// cannot be written to.
+/// Gives a number the type that the schema declares, where it is another one; nothing else can.
+bool give_type(const SpecSite& site, const schema::PropertyDefinition* declared, Fix& fix) {
+  if (declared == nullptr || site.spec->get_or(fields::typeName, Token()) == declared->type_name) {
+    return true;
+  }
+  const Value* given = site.spec->find(fields::default_value);
+  const std::optional<double> number = given == nullptr ? std::nullopt : physics::number_of(*given);
+  if (!number || declared->type_name != "float" ||
+      site.spec->find(fields::timeSamples) != nullptr ||
+      site.spec->find(fields::connectionPaths) != nullptr) {
+    return false;
+  }
+  SpecEdit type;
+  type.layer = site.layer->identifier();
+  type.path = site.path;
+  type.field = fields::typeName;
+  type.value = Value(declared->type_name);
+  SpecEdit value = type;
+  value.field = fields::default_value;
+  value.value = Value(static_cast<float>(*number));
+  fix.edits.push_back(std::move(type));
+  fix.edits.push_back(std::move(value));
+  return true;
+}
+
+/// Every spec of the property gets the name and the type of the schema, unless the prim has a
+/// property of that name, a spec cannot be written to or its value cannot have that type.
 std::optional<Fix> new_name(const Subject& subject, const Diagnostic& diagnostic,
                             std::string_view space) {
   const stage::Prim prim = prim_of(subject, diagnostic);
@@ -330,8 +356,9 @@ std::optional<Fix> new_name(const Subject& subject, const Diagnostic& diagnostic
     return std::nullopt;
   }
   Fix fix{"rename " + name.str() + " to " + wanted.str(), {}};
+  const schema::PropertyDefinition* declared = prim.definition()->find(wanted);
   for (const SpecSite& site : prim.attribute(name).spec_stack()) {
-    if (!is_writable(*site.layer)) {
+    if (!is_writable(*site.layer) || !give_type(site, declared, fix)) {
       return std::nullopt;
     }
     SpecEdit edit;
@@ -339,6 +366,10 @@ std::optional<Fix> new_name(const Subject& subject, const Diagnostic& diagnostic
     edit.path = site.path;
     edit.new_name = wanted;
     fix.edits.push_back(std::move(edit));
+  }
+  if (std::any_of(fix.edits.begin(), fix.edits.end(),
+                  [](const SpecEdit& edit) { return edit.field == fields::typeName; })) {
+    fix.what += " of type " + declared->type_name.str();
   }
   return fix.edits.empty() ? std::nullopt : std::optional<Fix>(std::move(fix));
 }

@@ -139,6 +139,36 @@ class Fixes(unittest.TestCase):
                 again = check(scene, "--fix", "--suggested")
                 self.assertEqual(again["corrected"], [])
 
+    def test_a_suggested_name_comes_with_the_type_of_the_schema(self):
+        scene = self.folder / "named.usda"
+        scene.write_text('''#usda 1.0
+(
+    defaultPrim = "m"
+)
+
+def Material "m" (
+    prepend apiSchemas = ["PhysicsMaterialAPI"]
+)
+{
+    double density = 10.5
+    int restitution = 1
+    double dynamicFriction.timeSamples = {
+        0: 0.5,
+    }
+}
+''')
+        rule = "attribute.unprefixed"
+        found = [d for d in check(scene)["diagnostics"] if d["rule"] == rule]
+        self.assertEqual([d["suggestedFix"] for d in found],
+                         ["rename density to physics:density of type float",
+                          "rename restitution to physics:restitution of type float", None])
+        answer = check(scene, "--fix", "--suggested")
+        self.assertEqual([d["rule"] for d in answer["diagnostics"]], [rule])
+        text = scene.read_text()
+        self.assertIn("    float physics:density = 10.5\n", text)
+        self.assertIn("    float physics:restitution = 1\n", text)
+        self.assertIn("    double dynamicFriction.timeSamples", text)
+
     def test_suggestions_need_fix(self):
         scene = next(iter(self.suggested().values()))
         done = run("check", scene, "--suggested")

@@ -485,8 +485,21 @@ class Words(Case):
         text = self.tenon("info", "arm.usda").stdout
         self.assertIn("1 articulation\n", text)
         self.assertIn("1 degree of freedom,", text)
-        plurals = "scenes|bodies|articulations|drives|limits|mimics|layers"
+        plurals = ("scenes|bodies|articulations|drives|limits|mimics|layers|steps|contacts|files|"
+                   "environments|threads|rows|columns|frames|triangles")
         self.assertNotRegex(text, rf"\b1 ({plurals})\b")
+        commands = self.write("go.csv", "time,/arm/Physics/shoulder.target\n0,1\n")
+        for words in (("sim", "arm.usda", "--duration", "0.002"),
+                      ("sim", "arm.usda", "--duration", "0.002", "--commands", commands),
+                      ("zip", "arm.usda", "-o", "arm.usdz"),
+                      ("bench", "arm.usda", "--duration", "0.002", "--threads", "1"),
+                      ("report", "arm.usda", "--duration", "0", "-o", "arm.html"),
+                      ("bake", "arm.usda", "--duration", "0", "-o", "m.usda"),
+                      *((verb, "arm.usda") for verb, more in READS.items()
+                        if not more and verb not in ("bench", "sim", "benchmark", "compare"))):
+            done = self.tenon(*words, code=None)
+            self.assertNotRegex(done.stdout + done.stderr, rf"\b1 ({plurals})\b",
+                                words)
 
     def test_absolute_names_stay_absolute(self):
         inside = self.folder / "far/away"
