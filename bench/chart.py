@@ -15,7 +15,7 @@ import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-RESULTS = os.path.join(ROOT, "bench/results/amd_epyc_2.json")
+RESULTS = os.path.join(ROOT, "bench/results/intel_r_xeon_r_processor_2.json")
 PICTURE = os.path.join(ROOT, "docs/speed.svg")
 
 # What a row of the chart says, and the recorded row: workload and phase, on one core.
