@@ -20,6 +20,7 @@
 #include "tenon/layer/fields.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/prim_roles.h"
+#include "tenon/schema/registry.h"
 #include "tenon/stage/collections/material_binding.h"
 
 namespace tenon::check {

@@ -227,7 +227,7 @@ class Commands(Sim):
         driven, free = self.rows("run.csv"), self.rows("plain.csv")
         before = [i for i, row in enumerate(free) if row["time"] <= 0.5]
         self.assertEqual([driven[i] for i in before], [free[i] for i in before])
-        self.assertIn("1 rows of 1 columns", self.ok(HAND, "--commands", path,
+        self.assertIn("1 row of 1 column", self.ok(HAND, "--commands", path,
                                                      "--duration", 0.1).stdout)
 
     def test_the_target_that_an_asset_has_and_one_that_is_commanded_are_the_same(self):
