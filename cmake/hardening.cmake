@@ -5,7 +5,7 @@
 # addresses, checked copies of the C library. tests/release/hardening.py reads what is installed.
 #
 # Sanitizers and coverage bring their own and stay without; a build without optimisation cannot have
-# checked copies, and that of `make demo` (TENON_QUICK) is not for files of others.
+# checked copies, and `make demo` (TENON_QUICK) is to be there soon: docs/installing.md says so.
 include(CheckPIESupported)
 include(CheckCXXSourceCompiles)
 check_pie_supported()

@@ -8,10 +8,9 @@ set(tenon_werror ${TENON_WERROR})
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   set(tenon_werror OFF)
 endif()
-# A tenth of the time to compile goes into warnings and a twentieth into tables for debuggers, which
-# nobody who only tries the program reads.
+# A tenth of the time to compile goes into warnings, which nobody who only tries the program reads.
 if(TENON_QUICK)
-  set(tenon_warnings -w -fno-asynchronous-unwind-tables)
+  set(tenon_warnings -w)
 else()
   set(tenon_warnings -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wold-style-cast)
 endif()

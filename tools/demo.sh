@@ -74,5 +74,5 @@ $looked_at   $motion   open it in any USD viewer and press play
    $tenon record FILE.usda -o motion.webm    or as a film, or a picture (.png)
    $tenon --help                             everything else
 
-$tenon is compiled without optimisation; make build makes the fast one.
+$tenon is compiled without optimisation and hardening; make build makes the one to keep.
 END

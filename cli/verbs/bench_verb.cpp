@@ -61,10 +61,9 @@ std::string whole(const Json& number) {
 }
 
 void print_bench(const Json& bench) {
-  const bool single = bench["environments"] == 1;
   print("%s %s  %s %s on %s, %s s in steps of %s s\n", bench["engine"].get<std::string>().c_str(),
         bench["engineVersion"].get<std::string>().c_str(), whole(bench["environments"]).c_str(),
-        single ? "environment" : "environments",
+        noun_for(bench["environments"].get<std::size_t>(), "environment").c_str(),
         counted(bench["threads"].get<std::size_t>(), "thread").c_str(),
         rounded_text(bench["duration"].get<double>()).c_str(),
         rounded_text(bench["timeStep"].get<double>()).c_str());

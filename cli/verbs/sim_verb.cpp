@@ -124,8 +124,9 @@ void print_request(const Json& state) {
   }
   if (state.contains("commands")) {
     const Json& commands = state["commands"];
-    print("commands   %s of %s from %s\n",
-          counted(commands["rows"].get<std::size_t>(), "row").c_str(),
+    const auto rows = commands["rows"].get<std::size_t>();
+    print("commands   %s %s of %s from %s\n", grouped_digits(rows).c_str(),
+          noun_for(rows, "row").c_str(),
           counted(commands["columns"].get<std::size_t>(), "column").c_str(),
           commands["file"].get<std::string>().c_str());
   }

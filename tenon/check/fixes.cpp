@@ -18,6 +18,7 @@
 #include "tenon/edit/apply_list_edit.h"
 #include "tenon/layer/field_values.h"
 #include "tenon/layer/fields.h"
+#include "tenon/layer/type_names.h"
 #include "tenon/physics/attribute_values.h"
 #include "tenon/physics/prim_roles.h"
 #include "tenon/schema/registry.h"
@@ -53,9 +54,12 @@ std::optional<SpecSite> value_site(const stage::Prim& prim, Token name) {
   return std::nullopt;
 }
 
+SpecEdit field_edit(const SpecSite& site, Token field, Value value) {
+  return {site.layer->identifier(), site.path, field, std::move(value), {}, false, {}, {}};
+}
+
 Fix set_field(std::string what, const SpecSite& site, Token field, Value value) {
-  return {std::move(what),
-          {{site.layer->identifier(), site.path, field, std::move(value), {}, false, {}, {}}}};
+  return {std::move(what), {field_edit(site, field, std::move(value))}};
 }
 
 std::optional<Fix> set_value(const stage::Prim& prim, Token name, Value value, std::string what) {
@@ -322,8 +326,12 @@ std::optional<Fix> fix_guide_purpose(const Subject& subject, const Diagnostic& d
 namespace {
 
 /// Gives a number the type that the schema declares, where it is another one; nothing else can.
+/// What differs by its role alone (float3, color3f) keeps its own.
 bool give_type(const SpecSite& site, const schema::PropertyDefinition* declared, Fix& fix) {
-  if (declared == nullptr || site.spec->get_or(fields::typeName, Token()) == declared->type_name) {
+  const layer::TypeName* own = layer::find_type_name(site.spec->get_or(fields::typeName, Token()));
+  if (declared == nullptr || declared->type == nullptr ||
+      (own != nullptr && own->type == declared->type->type &&
+       own->is_array == declared->type->is_array)) {
     return true;
   }
   const Value* given = site.spec->find(fields::default_value);
@@ -333,16 +341,8 @@ bool give_type(const SpecSite& site, const schema::PropertyDefinition* declared,
       site.spec->find(fields::connectionPaths) != nullptr) {
     return false;
   }
-  SpecEdit type;
-  type.layer = site.layer->identifier();
-  type.path = site.path;
-  type.field = fields::typeName;
-  type.value = Value(declared->type_name);
-  SpecEdit value = type;
-  value.field = fields::default_value;
-  value.value = Value(static_cast<float>(*number));
-  fix.edits.push_back(std::move(type));
-  fix.edits.push_back(std::move(value));
+  fix.edits.push_back(field_edit(site, fields::typeName, Value(declared->type_name)));
+  fix.edits.push_back(field_edit(site, fields::default_value, Value(static_cast<float>(*number))));
   return true;
 }
 
@@ -397,12 +397,7 @@ std::optional<Fix> suggest_joint_type(const Subject& subject, const Diagnostic& 
     if (!is_writable(*site.layer)) {
       return std::nullopt;
     }
-    SpecEdit edit;
-    edit.layer = site.layer->identifier();
-    edit.path = site.path;
-    edit.field = fields::typeName;
-    edit.value = Value(meant);
-    fix.edits.push_back(std::move(edit));
+    fix.edits.push_back(field_edit(site, fields::typeName, Value(meant)));
   }
   return fix.edits.empty() ? std::nullopt : std::optional<Fix>(std::move(fix));
 }

@@ -10,8 +10,7 @@ namespace tenon::compose {
 namespace {
 
 constexpr std::size_t kTaskUnits = 8;
-constexpr std::size_t kReportUnits = 400;  // a finding is kept as long as the index
-constexpr std::size_t kTextOfUnit = 2;     // bytes of its text
+constexpr std::size_t kTextOfUnit = 2;  // bytes of its text
 
 void run_task(Indexer& indexer, const Task& task) {
   switch (task.kind) {
@@ -160,7 +159,7 @@ void build_from_top(Indexer& indexer, const Site& site, bool root_contributes) {
 
 void Indexer::report(std::string_view error_class, const layer::Layer* layer, Path spec,
                      const Message& message, std::string fix, StatementPart part) {
-  services.work->count(kReportUnits + message.text().size() / kTextOfUnit);
+  services.work->count(kFindingUnits + message.text().size() / kTextOfUnit);
   errors.add(composition_error(error_class, Severity::Error,
                                {layer, spec, root_prim, std::move(part)}, message, std::move(fix)));
 }

@@ -26,8 +26,7 @@ namespace {
 
 namespace fields = layer::fields;
 
-constexpr std::size_t kLayerUnits = 20;     // of work for a layer of a stack
-constexpr std::size_t kLayerFinding = 400;  // for one that is skipped
+constexpr std::size_t kLayerUnits = 20;  // of work for a layer of a stack
 
 struct Sublayer {
   layer::LayerPtr layer;
@@ -208,7 +207,7 @@ class Builder {
   /// `sublayer` as it is authored; empty where the finding is about all of them.
   void report(std::string_view error_class, const layer::Layer& layer, const Message& message,
               std::string fix, const std::string& sublayer) {
-    count(kLayerFinding);
+    count(kFindingUnits);
     const StatementPart part =
         layer::item_part(fields::subLayers, layer::item_text(sublayer, Path()));
     stack_.errors.add(composition_error(error_class, Severity::Error,

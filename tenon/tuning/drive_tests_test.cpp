@@ -129,7 +129,7 @@ TEST_F(DriveTest, ACoarseStepIsFoundToBeTheCause) {
   DriveTestOptions options;
   options.kind = TestKind::Step;
   parts_ = 1;
-  for (const double coarse : {0.02, 0.05}) {  // [s]; a quarter is by the form, a sixteenth
+  for (const double coarse : {0.02, 0.05}) {  // [s]; by the form at a quarter, a sixteenth
     options.time_step = coarse;
     const DriveTestResult result = run(options).results.at(0);
     ASSERT_TRUE(result.form.has_value());

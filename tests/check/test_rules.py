@@ -169,6 +169,20 @@ def Material "m" (
         self.assertIn("    float physics:restitution = 1\n", text)
         self.assertIn("    double dynamicFriction.timeSamples", text)
 
+    def test_a_suggested_name_keeps_a_type_that_differs_by_its_role_alone(self):
+        scene = self.folder / "light.usda"
+        scene.write_text('''#usda 1.0
+def SphereLight "l"
+{
+    float3 color = (1, 0.5, 0)
+}
+''')
+        found = [d["suggestedFix"] for d in check(scene)["diagnostics"]
+                 if d["rule"] == "attribute.moved-input"]
+        self.assertEqual(found, ["rename color to inputs:color"])
+        check(scene, "--fix", "--suggested")
+        self.assertIn("    float3 inputs:color = (1, 0.5, 0)\n", scene.read_text())
+
     def test_suggestions_need_fix(self):
         scene = next(iter(self.suggested().values()))
         done = run("check", scene, "--suggested")

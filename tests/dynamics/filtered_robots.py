@@ -8,17 +8,20 @@ usage: filtered_robots.py ROOT TENON
 Two arms with hands (orca-arm, as URDF and as MJCF), a humanoid (gb-robot-models) and the four tasks
 of the Adroit hand (gymnasium-robotics), from the packages beside this Python. Each is converted,
 `pairs --filter always,adjacent,default` filters what touches, and SECONDS are simulated on each
-engine. Exit 0: every run ends well; 1: one did not; 77: the packages are not here.
+engine of the build. Exit 0: every run ends well; 1: one did not; 77: the packages are not here.
 """
 
 import os
 import pathlib
-import subprocess
 import sys
 import sysconfig
 import tempfile
 
-ENGINES = ("mujoco", "physx", "jolt")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "engines_beside"))
+
+from robots_per_engine import engines_of, first_error, run  # noqa: E402
+
+PATIENCE = 600  # [s] for one command
 SECONDS = 2
 ROBOTS = {
     "orca_arm/orcabot.urdf": "purelib",
@@ -29,33 +32,28 @@ ROBOTS = {
 }
 
 
-def run(words):
-    """-> exit code, what was printed as an error"""
-    done = subprocess.run([*map(str, words)], capture_output=True, text=True, check=False,
-                          timeout=600)
-    return done.returncode, done.stderr
+def ended(tenon, *words):
+    """-> exit code, and the first error where it is not 0"""
+    code, answer = run([tenon, *map(str, words), "--json"], PATIENCE)
+    return code, f"{words[0]} ended with {code}: {first_error(answer)[:200]}"
 
 
-def first_error(printed):
-    return next((line for line in printed.splitlines() if "error" in line), "")[:200]
-
-
-def faults_of(tenon, source, folder):
+def faults_of(tenon, engines, source, folder):
     """Converts, filters and simulates one robot; -> what went wrong."""
     fixed = ["--fix-base"] if source.suffix == ".urdf" else []
     asset = folder / "asset.usda"
-    code, printed = run([tenon, "convert", source, asset, *fixed])
+    code, fault = ended(tenon, "convert", source, asset, *fixed)
     if code not in (0, 1):  # 1: done, with findings
-        return [f"convert ended with {code}: {first_error(printed)}"]
-    code, printed = run([tenon, "pairs", asset, "--filter", "always,adjacent,default", "--quiet"])
+        return [fault]
+    code, fault = ended(tenon, "pairs", asset, "--filter", "always,adjacent,default")
     if code != 0:
-        return [f"pairs ended with {code}: {first_error(printed)}"]
+        return [fault]
     faults = []
-    for engine in ENGINES:
-        code, printed = run([tenon, "sim", asset, "--engine", engine, "--duration", SECONDS])
+    for engine, _ in engines:
+        code, fault = ended(tenon, "sim", asset, "--engine", engine, "--duration", SECONDS)
         print(f"  {engine} {code}", flush=True)
         if code != 0:
-            faults.append(f"{engine} ended with {code}: {first_error(printed)}")
+            faults.append(f"{engine}: {fault}")
     return faults
 
 
@@ -63,6 +61,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     tenon = os.path.abspath(sys.argv[2])
+    engines = engines_of(tenon)
     faults = []
     for name, place in ROBOTS.items():
         source = pathlib.Path(sysconfig.get_path(place)) / name
@@ -72,10 +71,10 @@ def main():
         print(name, flush=True)
         with tempfile.TemporaryDirectory() as folder:
             faults += [f"{name}: {fault}" for fault in
-                       faults_of(tenon, source, pathlib.Path(folder))]
+                       faults_of(tenon, engines, source, pathlib.Path(folder))]
     for fault in faults:
         print(fault)
-    print(f"{len(ROBOTS)} robots whose links overlap on {len(ENGINES)} engines after one command, "
+    print(f"{len(ROBOTS)} robots whose links overlap on {len(engines)} engines after one command, "
           f"{len(faults)} faults")
     sys.exit(1 if faults else 0)
 

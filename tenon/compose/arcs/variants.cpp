@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kVisitUnits = 4;  // for a node that a path is carried to
 constexpr std::size_t kMapUnits = 20;   // for each path that is carried across an arc
-constexpr std::size_t kVariantFinding = 400;
 
 struct TranslatedPath {
   NodeId node;
@@ -111,7 +110,7 @@ std::string selected_variant(Indexer& indexer, const Task& task) {
   if (!find_prior_selection(graph, from, task.set_name, &selection)) {
     find_authored_selection(indexer, from, task.set_name, &selection);
   }
-  graph.count(kVariantFinding * (indexer.errors.size() - findings));
+  graph.count(kFindingUnits * (indexer.errors.size() - findings));
   if (indexer.errors.size() == findings) {
     known = {graph.revision(), selection};
   }

@@ -42,6 +42,9 @@ struct ArcCost {
   std::size_t units = 0;
 };
 
+/// For a finding: it is kept as long as the index.
+inline constexpr std::size_t kFindingUnits = 400;
+
 class WorkMeter {
  public:
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();

@@ -32,15 +32,11 @@ JointRole loop_role(const Joint& joint) {
   return JointRole::Auxiliary;
 }
 
-bool is_given(const PhysicsScene& scene, const std::optional<Index>& body) {
-  return !body || scene.bodies[*body].kinematic;
-}
-
 /// The joint holds frames, of which one can move. Distance joints are bounds of their own.
 bool holds_frames(const PhysicsScene& scene, const Joint& joint) {
   return joint.kind != JointKind::Distance &&
          !(joint.kind == JointKind::D6 && scene::is_plain(joint)) &&
-         !(is_given(scene, joint.body0) && is_given(scene, joint.body1));
+         (scene.is_dynamic(joint.body0) || scene.is_dynamic(joint.body1));
 }
 
 BodyBase base_of(const scene::Body& body, const scene::ForestBody& link) {
