@@ -54,6 +54,12 @@ robot::MujocoSoftness softness_of(const mjModel& model, int joint) {
   }
   softness.solref_friction = unless(model.dof_solref + mjNREF * dof, kSolref);
   softness.solimp_friction = unless(model.dof_solimp + mjNIMP * dof, kSolimp);
+  if (model.dof_frictionloss[dof] != 0) {
+    softness.solref_friction.assign(model.dof_solref + mjNREF * dof,
+                                    model.dof_solref + mjNREF * (dof + 1));
+    softness.solimp_friction.assign(model.dof_solimp + mjNIMP * dof,
+                                    model.dof_solimp + mjNIMP * (dof + 1));
+  }
   return softness;
 }
 

@@ -11,8 +11,8 @@ namespace tenon::mjcf {
 /// How contacts of a geom are made, where that is not what MuJoCo takes by itself.
 robot::MujocoContact contact_of(const mjModel& model, int geom);
 
-/// How soft the limit of a joint is, also where that is what MuJoCo takes by itself: the limits of
-/// other assets are harder. Of friction, what MuJoCo does not take by itself.
+/// How soft the limit and the friction of a joint are, also where that is what MuJoCo takes by
+/// itself: those of other assets are harder.
 robot::MujocoSoftness softness_of(const mjModel& model, int joint);
 
 }  // namespace tenon::mjcf

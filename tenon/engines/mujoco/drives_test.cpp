@@ -48,6 +48,26 @@ TEST(Drives, VelocityDriveApproachesItsTarget) {
   EXPECT_NEAR(sim->joint_state(0).velocity[0], 2 * (1 - std::exp(-1.0)), 1e-3);
 }
 
+// 15 N of the drive less 12 N of friction, over a damper of 10 N s/m. What an asset says of
+// MuJoCo's friction counts.
+TEST(Drives, FrictionOfALightJointIsWhatTheAssetSays) {
+  scene::Drive d = drive(Dof::TransX, 0, 10);
+  d.target_velocity = 1.5;
+  TestScene scene = rail(d, 0, 0.02);
+  auto sim = simulation(scene, 0.002);
+  ASSERT_TRUE(sim->set_parameter({Parameter::JointFriction, 0, 0}, 12).has_value());
+  run(*sim, 1);
+  EXPECT_NEAR(sim->joint_state(0).velocity[0], 0.3, 1e-3);
+  scene.joints[0].friction = 12;
+  sim = simulation(scene, 0.002);
+  run(*sim, 1);
+  EXPECT_NEAR(sim->joint_state(0).velocity[0], 0.3, 1e-3);
+  scene.joints[0].parts.mujoco.solref_friction = {0.02, 1};
+  sim = simulation(scene, 0.002);
+  run(*sim, 1);
+  EXPECT_GT(sim->joint_state(0).velocity[0], 0.5);
+}
+
 TEST(Drives, SpringAndDamperAreClampedAsOneForce) {
   scene::Drive d = drive(Dof::TransX, 1000, 1000);
   d.target_position = 100;

@@ -152,6 +152,9 @@ void make_hard(double time_step, mjtNum* solref, mjtNum* solimp);
 /// softness.cpp.
 void soften_limit(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
                   mjtNum* solimp);
+/// Lets friction of a joint act as the asset says, else within a time step; see softness.cpp.
+void harden_friction(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
+                     mjtNum* solimp);
 /// MuJoCo's numbers of a constraint that is a spring-damper; see softness.cpp.
 struct SpringReference {
   double stiffness = 0;  ///< -solref[0]

@@ -44,17 +44,16 @@ void set_spring(Build& build, const scene::Joint& joint, const scene::LimitSprin
   }
 }
 
-void set_passive(mjsJoint* target, const scene::Joint& joint) {
+void set_passive(const Build& build, mjsJoint* target, const scene::Joint& joint) {
   target->armature = joint.armature;
   target->frictionloss = joint.friction;
   target->damping[0] = joint.damping;
   target->stiffness[0] = joint.stiffness;
   target->springref = joint.spring_reference;
-  const scene::MujocoSoftness& softness = joint.parts.mujoco;
-  std::copy(softness.solref_friction.begin(), softness.solref_friction.end(),
-            target->solref_friction);
-  std::copy(softness.solimp_friction.begin(), softness.solimp_friction.end(),
-            target->solimp_friction);
+  if (joint.friction > 0) {
+    harden_friction(build.time_step, joint.parts.mujoco, target->solref_friction,
+                    target->solimp_friction);
+  }
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
     ball->type = mjJNT_BALL;
     write_vector(ball->pos, anchor);
     ball->limited = mjLIMITED_FALSE;
-    set_passive(ball, joint);
+    set_passive(build, ball, joint);
     build.balls[index] = ball;
   };
   if (dofs.ball && reversed) {
@@ -96,7 +95,7 @@ void add_chain(Build& build, scene::Index index, mjsBody* child, const Pose& joi
     if (const scene::LimitSpring* spring = limit_spring(joint, dof.dof)) {
       set_spring(build, joint, *spring, target);
     }
-    set_passive(target, joint);
+    set_passive(build, target, joint);
     made[i] = target;
   }
   if (dofs.ball && !reversed) {

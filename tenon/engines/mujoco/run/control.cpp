@@ -163,6 +163,11 @@ Result<void> write_dofs(const PhysicsScene& scene, const ParameterKey& key, doub
   }
   mjModel& m = own_model(model);
   for (const int dof : dofs) {
+    if (key.what == Parameter::JointFriction) {
+      harden_friction(m.opt.timestep, scene.joints[key.object].parts.mujoco,
+                      m.dof_solref + std::ptrdiff_t{mjNREF} * dof,
+                      m.dof_solimp + std::ptrdiff_t{mjNIMP} * dof);
+    }
     (key.what == Parameter::JointDamping    ? m.dof_damping
      : key.what == Parameter::JointFriction ? m.dof_frictionloss
                                             : m.dof_armature)[dof] = value;
