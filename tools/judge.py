@@ -115,7 +115,10 @@ def judgements_of_engines():
 
 def judgements_of_pages_and_python():
     # tests/browser/run.mjs --list names the tests; they run by name too.
-    yield Judgement("browser", ["node", "tests/browser/run.mjs", "{packages}", ".",
+    yield Judgement("browser", ["bash", "-c", "python/tests/install.sh && "
+                                "TENON_PYTHON=$PWD/build/wheel/beside/bin/python "
+                                "PYTHONPATH=$(echo $PWD/build/wheel/clean/lib/python*/"
+                                "site-packages) node tests/browser/run.mjs {packages} . "
                                 "build/release/bin/tenon"],
                     "release", ["tenon_cli", "tenon_worker", "tenon_page"], node="tests/browser")
     # The Python package: memory after 100,000 openings, and its benchmark once, tiny.

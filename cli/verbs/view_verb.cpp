@@ -20,6 +20,7 @@
 #include "tenon/base/error.h"
 #include "tenon/engines/engines.h"
 #if TENON_WITH_VIEW
+#include "cli/python/ask_identify.h"
 #include "tenon/asset/viewing/page_place.h"
 #include "tenon/asset/viewing/view_asset.h"
 #include "tenon/glb/simplify_view.h"
@@ -41,6 +42,8 @@ struct ViewArguments {
   std::size_t port = 0;
   std::size_t triangles = 100'000;
   std::optional<double> seconds;
+  std::vector<std::string> logs;
+  std::string commands;
   bool watch = false;
   bool read_only = false;
   std::string screenshot;
@@ -54,7 +57,8 @@ Result<void> check_view_kind(const Command& verb, const ViewArguments& arguments
                         "add --screenshot FILE.png");
   }
   return refuse_given(verb,
-                      {"--bind", "--port", "--engine", "--dt", "--watch", "--read-only", "--for"},
+                      {"--bind", "--port", "--engine", "--dt", "--watch", "--read-only", "--for",
+                       "--log", "--commands"},
                       "views that are served", "leave it out, or leave --screenshot out");
 }
 
@@ -128,6 +132,11 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments, Rep
   };
   options.version = TENON_VERSION;
   options.watch = arguments.watch;
+  options.identify.logs = arguments.logs;
+  options.identify.run = [commands = arguments.commands](const live::IdentifyWish& wish,
+                                                         live::Work& work) {
+    return ask_identify(wish, commands, work);
+  };
   if (!arguments.read_only) {
     options.write = [asset = arguments.asset.asset](const std::vector<EditedFile>& files) {
       return write_edits(files, {"view", asset});
@@ -237,6 +246,12 @@ void add_view(const Command& parent, const Globals& globals, Chosen& chosen) {
   verb.add_option("--for", options->seconds, {0, 1e9, false, false, "s"},
                   "End by itself after this time; without it Ctrl-C ends it")
       .value_name("SECONDS");
+  verb.add_option("--log", options->logs,
+                  "A log of the robot for the panel \"Identify\" (tenon identify); may be repeated")
+      .value_name("FILE")
+      .repeatable();
+  verb.add_option("--commands", options->commands, "Commands that are not in the logs, as a table")
+      .value_name("FILE");
   verb.add_option("--screenshot", options->screenshot,
                   "Serve nothing: write a picture to this .png and end (tenon record has more to "
                   "choose)")

@@ -361,6 +361,28 @@ class Command(Robot):
         self.assertAlmostEqual(parameter["value"], 24, delta=0.5)
         self.assertLess(parameter["low"], parameter["high"])
         self.assertTrue(answer["ok"] and answer["improved"])
+        self.assertNotIn("layer", answer)
+        other = self.folder / "other.usda"
+        code, out, err = self.run_main(*common, "--json", "--write", other, "--dry-run",
+                                       "--progress")
+        answer = json.loads(out)
+        self.assertEqual((answer["written"], other.exists()), ([], False))
+        self.assertEqual(answer["layer"], layer.read_text(encoding="utf-8"))
+        self.assertRegex(err, r"(?m)^progress: round 1 of 4: \d+ simulations, [\d.e+]+ left$")
+
+    def test_commands_of_speed_tell_gains_too(self):
+        """Where a fit begins: the law of a drive aims at a speed, as tables of excite do."""
+        log = self.log(np.array([0.0, 0.0, 0.0, 24.0, 1.2, 0.0]), duration=2.0, noise=0.0,
+                       counts=1 << 30, effort_noise=0.0)
+        speed = np.gradient(log.command_position[:, 0], log.times)
+        drawn = speed[:, None] * 1.3
+        log = dataclasses.replace(log, command_velocity=drawn, effort=log.effort + 1.2 * drawn)
+        model = Model(str(self.asset), log, step=STEP)
+        rows = [Row("stiffness"), Row("driveDamping"), Row("delay")]
+        found = linear_start(model, select(rows, model.plant, log))
+        self.assertAlmostEqual(found[0], 24, delta=2.0)
+        self.assertAlmostEqual(found[1], 1.2, delta=0.1)
+        self.assertAlmostEqual(found[2], 0, delta=STEP)
 
     def test_what_is_no_better_is_not_written(self):
         """The log of the asset itself, as it is, without noise."""
@@ -403,6 +425,7 @@ class Command(Robot):
                 ((self.asset, path, "--identify", "x"), "there is no 'x'"),
                 ((self.asset, path, "--write", "a.usdc"), ".usda"),
                 ((self.asset, path, "--report", "/no/such/a.html"), "no folder"),
+                ((self.asset, path, "--dry-run"), "--dry-run is about --write"),
                 ((self.asset, path, "--training", "2"), "expected 0.05 to 0.95"),
                 ((self.asset, path, "--prior", "mass=1,1"), "--prior is about"),
                 ((self.asset, path, "--starts", "0"), "expected 1 to"),

@@ -348,8 +348,9 @@ Error refused(std::string message, std::string fix) {
 std::span<const Request> all_requests() {
   static const std::vector<Request> all = [] {
     std::vector<Request> list(kRequests.begin(), kRequests.end());
-    const auto panels = panel_requests();
-    list.insert(list.end() - 1, panels.begin(), panels.end());  // `messages` comes last
+    for (const auto panels : {panel_requests(), identify_requests()}) {
+      list.insert(list.end() - 1, panels.begin(), panels.end());  // `messages` comes last
+    }
     return list;
   }();
   return all;

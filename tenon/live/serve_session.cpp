@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three threads: the server, the session, and one for answers that take long. The server puts what
+// Four threads: the server, the session, and two for answers that take long, one of them for those
+// that another program makes. The server puts what
 // clients say into an inbox of bounded size, from which the thread of the session takes it; a
 // client that says more than its part is dropped by the server, and no other. What comes out of the
 // session is handed to the server, which is safe from any thread.
@@ -151,9 +152,9 @@ class LateAnswers {
 };
 
 /// Hands over late answers; a client with too many requests at once is refused.
-void hand_over(LateAnswers& answers, const Session& session, Outbox& out) {
+void hand_over(LateAnswers& answers, LateAnswers& outside, const Session& session, Outbox& out) {
   for (LateAnswer& late : std::exchange(out.late, {})) {
-    if (!answers.put(late)) {
+    if (!(late.is_outside ? outside : answers).put(late)) {
       session.answer_late(late,
                           Error(ErrorCode::Limit, "too many requests at once")
                               .with_rule("live.busy")
@@ -192,7 +193,7 @@ void hear(Session& session, const serve::ClientEvent& event, Outbox& out) {
 }
 
 void live(serve::Server& server, Session& session, Inbox& inbox, LateAnswers& answers,
-          std::optional<double> seconds) {
+          LateAnswers& outside, std::optional<double> seconds) {
   const auto begin = PaceClock::now();
   auto last = begin;
   auto next = last;
@@ -203,7 +204,7 @@ void live(serve::Server& server, Session& session, Inbox& inbox, LateAnswers& an
     Letters letters = inbox.take(next, ended);
     for (const serve::ClientEvent& event : letters.events) {
       hear(session, event, out);
-      hand_over(answers, session, out);
+      hand_over(answers, outside, session, out);
       send(server, out);
     }
     for (MadeAnswer& answer : letters.answers) {
@@ -229,7 +230,9 @@ void live(serve::Server& server, Session& session, Inbox& inbox, LateAnswers& an
     const PaceClock::duration pause = session.is_playing() ? kFrameTime : kIdleTime;
     next = std::max(next + pause, now + pause / 2);
   }
+  session.end_works();
   answers.end();
+  outside.end();
 }
 
 }  // namespace
@@ -247,6 +250,7 @@ Result<bool> serve_session(serve::Server& server, Session& session, std::optiona
   }
   Inbox inbox;
   LateAnswers answers;
+  LateAnswers outside;
   bool by_signal = false;
   const auto serve_pages = [&] {
     by_signal = server.run([&](serve::ClientEvent event) { return inbox.put(std::move(event)); });
@@ -254,10 +258,17 @@ Result<bool> serve_session(serve::Server& server, Session& session, std::optiona
   };
   bool lived = false;
   const auto serve_live = [&] {
-    lived = run_beside([&] { live(server, session, inbox, answers, seconds); }, serve_pages);
+    lived =
+        run_beside([&] { live(server, session, inbox, answers, outside, seconds); }, serve_pages);
+    answers.end();
+    outside.end();
+  };
+  bool aside = false;
+  const auto serve_late = [&] {
+    aside = run_beside([&] { outside.run(inbox); }, serve_live);
     answers.end();
   };
-  const bool served = run_beside([&] { answers.run(inbox); }, serve_live) && lived;
+  const bool served = run_beside([&] { answers.run(inbox); }, serve_late) && aside && lived;
   if (!served) {
     return Error(ErrorCode::Io, "the system gives no second thread").with_rule("live.no-thread");
   }

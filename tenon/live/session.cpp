@@ -517,6 +517,12 @@ void Session::forget(ClientNumber client) {
   state_->pulls.release(client);
 }
 
+void Session::end_works() {
+  for (const std::shared_ptr<Work>& work : state_->works) {
+    work->end();
+  }
+}
+
 void Session::hear(ClientNumber client, std::string_view text, Outbox& out) {
   Asked asked;
   const auto index = Listener(requests()).read(text, asked);
@@ -527,7 +533,8 @@ void Session::hear(ClientNumber client, std::string_view text, Outbox& out) {
   }
   if (result && state_->later) {
     out.late.push_back({client, asked.name(), asked.id(), std::exchange(state_->later, {}),
-                        std::exchange(state_->later_work, {})});
+                        std::exchange(state_->later_work, {}),
+                        std::exchange(state_->later_is_outside, false)});
   } else {
     if (state_->later_work) {
       std::exchange(state_->later_work, {})->finish();

@@ -16,6 +16,7 @@
 #include "tenon/base/function.h"
 #include "tenon/base/result.h"
 #include "tenon/live/edit_history.h"
+#include "tenon/live/identifying.h"
 #include "tenon/live/live_asset.h"
 #include "tenon/live/messages.h"
 #include "tenon/live/work.h"
@@ -33,6 +34,7 @@ struct LateAnswer {
   Json id;
   Function<Result<Json>()> make;
   std::shared_ptr<Work> work{};  ///< what `make` tells meanwhile; null: nothing
+  bool is_outside = false;       ///< another program works: it keeps no other answer waiting
 };
 
 /// What comes out of one call.
@@ -52,6 +54,7 @@ struct SessionOptions {
   std::string version;  ///< of tenon
   bool watch = false;   ///< look_at_files() opens the asset again when a file has changed
   WriteFiles write;     ///< empty: edits are refused
+  IdentifyTools identify;
 };
 
 /// All requests that a session understands.
@@ -73,6 +76,8 @@ class Session {
   void answer_late(const LateAnswer& late, Result<Json> result, Outbox& out) const;
   /// What the client pulled is let go.
   void forget(ClientNumber client);
+  /// Long requests of all clients are to end.
+  void end_works();
   /// `seconds` have passed since the last call. Takes no longer than some 30 ms; time that cannot
   /// be simulated in that is skipped, and the rate of `state` tells it.
   void advance(double seconds, Outbox& out);

@@ -53,11 +53,13 @@ class Session::State {
   /// Set by a request whose answer is made later, elsewhere.
   Function<Result<Json>()> later;
   std::shared_ptr<Work> later_work;          ///< of it; null: it tells nothing meanwhile
+  bool later_is_outside = false;             ///< another program makes it
   std::vector<std::shared_ptr<Work>> works;  ///< that are not over
   /// Drive targets that were set, by joint and drive: they are set again on a new model.
   std::map<std::pair<Path, scene::Index>, engines::DriveTarget> targets;
   /// Gains that were set, of a degree of freedom of a joint, likewise, until they are saved.
   std::map<std::pair<Path, scene::Dof>, tuning::Gains> gains;
+  std::shared_ptr<FoundLayer> found_layer = std::make_shared<FoundLayer>();
   /// Drives of the scene as they are at its start; none: nobody has asked yet.
   std::optional<std::vector<tuning::DriveRow>> drive_rows;
 
@@ -135,9 +137,11 @@ struct Request {
   Handler handle = nullptr;
 };
 
-/// The truth about requests (requests.cpp), which has those of panels from panel_requests.cpp.
+/// The truth about requests (requests.cpp), which has those of panels from panel_requests.cpp and
+/// identifying.cpp.
 std::span<const Request> all_requests();
 std::span<const Request> panel_requests();
+std::span<const Request> identify_requests();
 
 /// live.refused, with what to do instead.
 Error refused(std::string message, std::string fix);

@@ -16,6 +16,7 @@ import { Events } from "./events";
 import { Findings } from "./findings";
 import { Gains } from "./gains";
 import { History } from "./history";
+import { Identify } from "./identify";
 import { Messages } from "./messages";
 import { Move } from "./move";
 import { Pairs } from "./pairs";
@@ -136,6 +137,7 @@ function main(): void {
   new Drives(session);
   new Gains(session);
   new Poses(session);
+  new Identify(session);
   new Details(session);
   new Pull(session);
   new Prims(session);

@@ -207,6 +207,56 @@ export interface NamedPose {
   joints: PoseJoint[];
 }
 
+export interface Word {
+  text: string;
+}
+
+export interface IdentifiedParameter {
+  name: string;
+  family: string;
+  unit: string;
+  /** of the asset */ nominal: number | null;
+  /** identified */ value?: number | null;
+  /** of 95 % */ low?: number | null;
+  /** likewise */ high?: number | null;
+  /** of the best fit */ expectedError?: number | null;
+  /** whether the logs tell it */ told?: boolean;
+  /** of a self-test */ truth?: number | null;
+  /** likewise */ found?: number | null;
+  /** standard error; of a self-test the part that it is off */ error?: number | null;
+  /** of a self-test */ passed?: boolean;
+}
+
+export interface IdentifyCheck {
+  parameters: IdentifiedParameter[];
+  /** why the logs do not tell them */ refused: string[];
+  quality: unknown;
+}
+
+export interface LeftOver {
+  channel: string;
+  joint: string;
+  before: number | null;
+  after: number | null;
+}
+
+export interface EngineReplay {
+  engine: string;
+  before: number | null;
+  after: number | null;
+  why: string;
+}
+
+export interface Identified {
+  ok: boolean;
+  check?: IdentifyCheck;
+  parameters?: IdentifiedParameter[];
+  /** root mean squares of what is left */ heldOut?: LeftOver[];
+  engines?: EngineReplay[];
+  /** of a self-test */ scores?: IdentifiedParameter[];
+  /** why the layer would not be written */ problems?: string[];
+}
+
 export interface HelloNotice {
   /** of these messages */ protocol: number;
   /** of tenon */ version: string;
@@ -437,6 +487,12 @@ export interface Requests {
   importPoses: { fields: { text: string; dryRun?: boolean | null; }; answer: Edited };
   /** Corrects findings that have a safe fix, as `tenon check --fix`. */
   fix: { fields: { rule?: string | null; prim?: string | null; property?: string | null; file?: string | null; line?: number | null; suggested?: boolean | null; dryRun?: boolean | null; }; answer: Edited };
+  /** The logs that can be identified from. */
+  identifyLogs: { fields: Record<string, never>; answer: { logs: string[]; layer: string; whyNot: string | null; } };
+  /** A stage of `tenon identify`; beside other long requests. */
+  identify: { fields: { stage: string; logs?: Word[] | null; heldOut?: Word[] | null; parameters?: Word[] | null; priors?: Word[] | null; names?: Word[] | null; signs?: Word[] | null; units?: string | null; allowGaps?: boolean | null; hold?: boolean | null; training?: number | null; timeStep?: number | null; window?: number | null; starts?: number | null; }; answer: Identified };
+  /** Writes what the last `solve` found as a layer over the asset. */
+  writeIdentified: { fields: { force?: boolean | null; dryRun?: boolean | null; }; answer: Edited };
   /** These tables. */
   messages: { fields: Record<string, never>; answer: { protocol: number; requests: unknown[]; notices: unknown[]; } };
 }

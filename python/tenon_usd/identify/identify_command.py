@@ -69,6 +69,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--check", action="store_true", help="only say what the logs tell")
     add("--report", metavar="FILE", help="a page with tables and plots (.html)")
     add("--write", metavar="FILE", help="a layer over the asset with the numbers (.usda)")
+    add("--dry-run", action="store_true",
+        help="print the layer that --write would write, with --json as its field layer")
     add("--force", action="store_true",
         help="write also what predicts held-out motion no better, and over a file")
     add("--self-test", action="store_true",
@@ -79,12 +81,21 @@ def _parser() -> argparse.ArgumentParser:
     add_reading_options(parser)
     add("--json", action="store_true", help="print one JSON object on standard output")
     add("-q", "--quiet", action="store_true", help="no progress")
+    add("--progress", action="store_true",
+        help="how far it is as lines of standard error, for programs that show it")
     return parser
 
 
 class _Shown(ProgressLine):
+    def __init__(self, quiet: bool, lines: bool) -> None:
+        super().__init__(quiet or lines)
+        self.lines = lines
+
     def __call__(self, what: str, simulations: int, cost: float) -> None:
-        self.show(f"{what}: {simulations} simulations, {cost:.6g} left")
+        told = f"{what}: {simulations} simulations, {cost:.6g} left"
+        self.show(told)
+        if self.lines:
+            print(f"progress: {told}", file=sys.stderr, flush=True)
 
 
 def _rows(arguments: argparse.Namespace) -> list[Row]:
@@ -113,8 +124,14 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
             raise InvalidError(f"{option} is of a single start: leave --starts and --on out")
     if arguments.prior and not arguments.identify and not arguments.parameters:
         raise InvalidError("--prior is about what --identify or --parameters name")
+    _check_outputs(arguments)
+
+
+def _check_outputs(arguments: argparse.Namespace) -> None:
     if arguments.write and not arguments.write.endswith(".usda"):
         raise InvalidError(f"--write {arguments.write}: expected a .usda file")
+    if arguments.dry_run and not arguments.write:
+        raise InvalidError("--dry-run is about --write: name the file that would be written")
     if arguments.report and not arguments.report.endswith(".html"):
         raise InvalidError(f"--report {arguments.report}: expected an .html file")
     for output in (arguments.write, arguments.report, arguments.state):
@@ -180,15 +197,20 @@ def _finish(arguments: argparse.Namespace, found: Identified) -> int:
         write_whole(os.path.abspath(arguments.report),
                     page(found, arguments.asset, arguments.logs).encode())
         written.append(arguments.report)
-    if arguments.write and (not no or arguments.force):
+    value: dict[str, Any] = {}
+    if arguments.write and (not no or arguments.force or arguments.dry_run):
         overlay = make_overlay(arguments.asset, arguments.write, found.parameters,
                                found.solution.values)
-        write_overlay(overlay, arguments.write, arguments.asset, arguments.force)
         lines += [f"{each.name} is not in the layer: {why}" for each, why in overlay.left]
-        written.append(arguments.write)
+        if arguments.dry_run:
+            value["layer"] = overlay.text
+            lines += ["", *overlay.text.splitlines()]
+        else:
+            write_overlay(overlay, arguments.write, arguments.asset, arguments.force)
+            written.append(arguments.write)
     elif arguments.write:
         no.append(f"{arguments.write} is not written; --force does that")
-    value = {"ok": not no, **identified_json(found), "written": written, "problems": no}
+    value = {"ok": not no, **identified_json(found), **value, "written": written, "problems": no}
     _print(arguments, value, [*lines, *written])
     for line in no:
         print(f"error: {line}", file=sys.stderr)
@@ -230,7 +252,7 @@ def main(words: list[str] | None = None) -> int:
     if isinstance(arguments, int):
         return arguments
     try:
-        code = _run(arguments, _Shown(arguments.quiet or arguments.json))
+        code = _run(arguments, _Shown(arguments.quiet or arguments.json, arguments.progress))
         sys.stdout.flush()
         return code
     except RefusedError as error:

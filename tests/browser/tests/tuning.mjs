@@ -3,7 +3,7 @@
 //
 // The panels of pairs, drives, gains and poses, and fixes of findings, on copies of the example hand:
 // tables and tests say what the verbs say, what is written is shown before and comes back by Undo.
-import { readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { ask, button, hold, listen, near, openTab, sceneOf, settled, until } from "../harness.mjs";
 
@@ -326,6 +326,45 @@ export const tests = {
     return `${known.length} findings`;
   },
 
+  async numbers_are_identified_from_a_log(stage) {
+    const folder = stage.folder();
+    const at = (name) => join(folder, name);
+    const arm = stage.path("examples/cpp/robots/arm.urdf");
+    stage.tenon(["convert", arm, at("arm.usda"), "--gains", "40,2", "--fix-base", "-q"]);
+    stage.tenon(["convert", arm, at("robot.usda"), "--gains", "33,1.6", "--friction", "0.3", "--fix-base", "-q"]);
+    stage.tenon(["excite", at("arm.usda"), "-o", at("motion.csv"), "--duration", "4", "--no-collisions", "-q"]);
+    stage.tenon(["sim", at("robot.usda"), "--commands", at("motion.csv"), "--duration", "5", "--dt", "0.0005",
+      "--integrator", "rk4", "--fps", "100", "--log", "efforts", "-o", at("run.csv"), "-q"]);
+    const page = await stage.live(await stage.view(at("arm.usda"), "--dt", "0.005", "--log", at("run.csv"), "--commands", at("motion.csv")));
+    await listen(page);
+    await openTab(page, "Identify");
+    const place = shown(page);
+    await place.getByText("run.csv").waitFor();
+    await place.getByLabel("Parameters", { exact: true }).fill("gains\nfriction");
+    const solve = button(page, "Solve");
+    hold(await solve.isDisabled(), "a fit without a check");
+    await button(page, "Check").click();
+    await until(() => solve.isEnabled(), "the check passes");
+    const told = await place.getByRole("region", { name: "4 Check" }).locator("tbody tr").allTextContents();
+    hold(told.length === 3 && told.every((row) => row.endsWith("yes")), `the check tells ${told}`);
+    await place.getByLabel("Parameters", { exact: true }).fill("gains");
+    hold(await solve.isDisabled(), "a fit of what was not checked");
+    await place.getByLabel("Parameters", { exact: true }).fill("gains\nfriction");
+    await solve.click();
+    const rows = place.getByRole("region", { name: "6 Result" }).locator("tbody tr");
+    await rows.first().waitFor({ timeout: 60000 });
+    const numbers = await rows.first().locator("td").allTextContents();
+    hold(Math.abs(Number(numbers[2]) - 33) < 0.2, `the stiffness is ${numbers}`);
+    await button(page, "Write the layer...").click();
+    await dialog(page).waitFor();
+    hold(!existsSync(at("arm.identified.usda")), "it is written though nobody has seen it");
+    await dialog(page).getByRole("button", { name: "Write", exact: true }).click();
+    await until(() => existsSync(at("arm.identified.usda")), "the layer");
+    await button(page, "Undo").click();
+    await until(() => !existsSync(at("arm.identified.usda")), "the layer goes");
+    return `stiffness ${numbers[2]} of 33`;
+  },
+
   async panels_fit_small_windows_and_write_nothing_where_they_may_not(stage) {
     const viewer = await stage.view(stage.hand(), "--read-only");
     for (const width of [800, 1024]) {
@@ -334,7 +373,7 @@ export const tests = {
       await page.locator("[role=tabpanel]:visible").getByLabel("Postures to look at").fill("20");
       await button(page, "Look for contacts").click();
       await page.locator("table.pairs").waitFor();
-      for (const [tab, there] of [["Pairs", "table.pairs"], ["Drives", "table.drives"], ["Gains", "table.gains"], ["Poses", ".poses li"], ["Findings", ".finding"]]) {
+      for (const [tab, there] of [["Pairs", "table.pairs"], ["Drives", "table.drives"], ["Gains", "table.gains"], ["Poses", ".poses li"], ["Identify", "[aria-label='2 Logs'] li"], ["Findings", ".finding"]]) {
         await openTab(page, tab);
         await page.locator(there).first().waitFor();
         await settled(page);
@@ -346,7 +385,7 @@ export const tests = {
             .map((one) => `${one.tagName} ${one.textContent}`);
         });
         hold(over.length === 0, `${tab}: cut off at ${width} px: ${over.slice(0, 3)}`);
-        const writes = page.locator("[role=tabpanel]:visible").getByRole("button", { name: /^(Save|Correct|Rename|Remove|Import)/ });
+        const writes = page.locator("[role=tabpanel]:visible").getByRole("button", { name: /^(Save|Write|Correct|Rename|Remove|Import)/ });
         hold((await writes.count()) === 0, `${tab} offers to write`);
       }
       const refusal = await page.evaluate((joint) =>

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: tenon authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The panel "Identify": the stages of `tenon identify` with logs that were named when the session
+// began. A page names no file: logs are chosen among these, and the layer goes beside the asset.
+#include "tenon/live/identifying.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "tenon/base/text/shown_path.h"
+#include "tenon/live/session_state.h"
+#include "tenon/live/shapes.h"
+
+namespace tenon::live {
+namespace {
+
+constexpr std::uint32_t kMostStarts = 256;
+
+struct StageName {
+  const char* name;
+  IdentifyStage stage;
+};
+constexpr std::array kStages{StageName{"check", IdentifyStage::Check},
+                             StageName{"solve", IdentifyStage::Solve},
+                             StageName{"selfTest", IdentifyStage::SelfTest}};
+
+constexpr std::array kWordRow{Field{"text", kText}};
+constexpr Shape kWord{"Word", kWordRow};
+constexpr Field words(const char* name, const char* meaning) {
+  return {name, FieldType::Rows, false, meaning, 0, &kWord};
+}
+constexpr std::array kIdentifyFields{
+    Field{"stage", kText, true, "`check`, `solve` or `selfTest`"},
+    words("logs", "those to fit, of `identifyLogs`; default: all"),
+    words("heldOut", "logs that are not fitted, to prove the result on"),
+    words("parameters", "as `--identify` takes them; default: what logs usually tell"),
+    words("priors", "as `--prior` takes them"),
+    words("names", "what logs call a joint: NAME=JOINT"),
+    words("signs", "joints that logs count the other way: JOINT=-1"),
+    Field{"units", kText, false, "of logs that are not in SI: `deg`, `mm`"},
+    Field{"allowGaps", kFlag, false, "take logs in which samples are missing"},
+    Field{"hold", kFlag, false, "what the logs do not tell keeps the asset's number"},
+    Field{"training", kNumber, false, "of each log the part that is fitted; default 0.7"},
+    Field{"timeStep", kNumber, false, "[s]; default: the asset's"},
+    Field{"window", kNumber, false, "[s]; default: as the verb has it"},
+    Field{"starts", kInteger, false, "fits from as many starts; default 1", kMostStarts}};
+constexpr std::array kWriteFields{
+    Field{"force", kFlag, false, "also what predicts held-out motion no better"},
+    Field{"dryRun", kFlag, false, "tell the difference, write nothing"}};
+
+constexpr std::array kLogsFields{list("logs", kEachText, "files"),
+                                 Field{"layer", kText, true, "the file that is written"},
+                                 Field{"whyNot", kText, false, "nothing can be identified"}};
+constexpr Shape kLogs{"", kLogsFields};
+constexpr std::array kParameterFields{
+    Field{"name", kText},
+    Field{"family", kText},
+    Field{"unit", kText},
+    Field{"nominal", kNumber, false, "of the asset"},
+    may_miss({"value", kNumber, false, "identified"}),
+    may_miss({"low", kNumber, false, "of 95 %"}),
+    may_miss({"high", kNumber, false, "likewise"}),
+    may_miss({"expectedError", kNumber, false, "of the best fit"}),
+    may_miss({"told", kFlag, true, "whether the logs tell it"}),
+    may_miss({"truth", kNumber, false, "of a self-test"}),
+    may_miss({"found", kNumber, false, "likewise"}),
+    may_miss({"error", kNumber, false, "standard error; of a self-test the part that it is off"}),
+    may_miss({"passed", kFlag, true, "of a self-test"})};
+constexpr Shape kParameter{"IdentifiedParameter", kParameterFields, "identify"};
+constexpr std::array kCheckFields{rows("parameters", kParameter),
+                                  list("refused", kEachText, "why the logs do not tell them"),
+                                  Field{"quality", FieldType::Any}};
+constexpr Shape kCheck{"IdentifyCheck", kCheckFields, "identify --check"};
+constexpr std::array kLeftFields{Field{"channel", kText}, Field{"joint", kText},
+                                 Field{"before", kNumber, false}, Field{"after", kNumber, false}};
+constexpr Shape kLeft{"LeftOver", kLeftFields, "identify"};
+constexpr std::array kReplayFields{Field{"engine", kText}, Field{"before", kNumber, false},
+                                   Field{"after", kNumber, false}, Field{"why", kText}};
+constexpr Shape kReplay{"EngineReplay", kReplayFields, "identify"};
+constexpr std::array kIdentifiedFields{
+    Field{"ok", kFlag},
+    may_miss(object("check", kCheck, true)),
+    may_miss(rows("parameters", kParameter)),
+    may_miss(rows("heldOut", kLeft, "root mean squares of what is left")),
+    may_miss(rows("engines", kReplay)),
+    may_miss(rows("scores", kParameter, "of a self-test")),
+    may_miss(list("problems", kEachText, "why the layer would not be written"))};
+constexpr Shape kIdentified{"Identified", kIdentifiedFields, "identify"};
+
+std::vector<std::string> texts(const Asked& asked, const char* field) {
+  std::vector<std::string> made;
+  for (const Asked& row : asked.rows(field)) {
+    made.push_back(row.text("text"));
+  }
+  return made;
+}
+
+/// Beside the asset: hand.usd -> hand.identified.usda.
+std::string layer_path(const Session::State& state) {
+  std::filesystem::path path = state.options.asset.path;
+  return path.replace_extension(".identified.usda").string();
+}
+
+std::string why_not(const IdentifyTools& tools) {
+  return tools.run ? "" : "identification is in tenon's Python package, which this program lacks";
+}
+
+Result<std::vector<std::string>> known_logs(const IdentifyTools& tools, const Asked& asked,
+                                            const char* field) {
+  std::vector<std::string> logs = texts(asked, field);
+  for (const std::string& log : logs) {
+    if (std::find(tools.logs.begin(), tools.logs.end(), log) == tools.logs.end()) {
+      return refused("`" + shown_path(log) + "` is no log of this session",
+                     "start tenon view with --log FILE");
+    }
+  }
+  return logs;
+}
+
+Result<IdentifyWish> wish_of(const Session::State& state, const Asked& asked) {
+  const IdentifyTools& tools = state.options.identify;
+  const auto stage = std::find_if(kStages.begin(), kStages.end(), [&](const StageName& one) {
+    return asked.text("stage") == one.name;
+  });
+  if (stage == kStages.end()) {
+    return refused("`stage` is not check, solve or selfTest", "name one of them");
+  }
+  IdentifyWish wish;
+  wish.stage = stage->stage;
+  TENON_TRY(wish.held_out, known_logs(tools, asked, "heldOut"));
+  TENON_TRY(wish.logs, known_logs(tools, asked, "logs"));
+  if (!asked.has("logs")) {
+    std::copy_if(tools.logs.begin(), tools.logs.end(), std::back_inserter(wish.logs),
+                 [&](const std::string& log) {
+                   return std::find(wish.held_out.begin(), wish.held_out.end(), log) ==
+                          wish.held_out.end();
+                 });
+  }
+  if (wish.stage == IdentifyStage::SelfTest) {
+    wish.logs.clear();
+    wish.held_out.clear();
+  } else if (wish.logs.empty()) {
+    return refused("there is no log to fit", "start tenon view with --log FILE");
+  }
+  wish.asset = state.options.asset.path;
+  wish.engine = state.asset.engine;
+  wish.variant = edit_options(state).open.physics_variant;
+  wish.parameters = texts(asked, "parameters");
+  wish.priors = texts(asked, "priors");
+  wish.names = texts(asked, "names");
+  wish.signs = texts(asked, "signs");
+  wish.units = asked.text("units");
+  wish.allow_gaps = asked.flag("allowGaps");
+  wish.hold = asked.flag("hold");
+  wish.training = asked.number("training", wish.training);
+  wish.time_step = asked.number("timeStep", state.options.asset.time_step);
+  wish.window = asked.number("window", wish.window);
+  wish.starts = asked.integer("starts", wish.starts);
+  wish.layer = layer_path(state);
+  return wish;
+}
+
+/// What the verb answered; "layer" is kept for writing.
+Result<Json> answer_of(const IdentifyEnd& end, const Work& work, FoundLayer& found) {
+  constexpr int kMissing = 4;
+  Json json = Json::parse(end.json, nullptr, false);
+  if (work.is_ended() && !json.is_object()) {
+    return Error(ErrorCode::Invalid, "ended before its end").with_rule("identify.ended");
+  }
+  if (!json.is_object() || json.contains("error")) {
+    const std::string said = json.is_object() ? json.value("error", "") : end.complaint;
+    return Error(end.code == kMissing ? ErrorCode::Missing : ErrorCode::Invalid,
+                 "tenon identify: " +
+                     (said.empty() ? "it ended with the code " + std::to_string(end.code) : said))
+        .with_rule("identify.refused");
+  }
+  if (const auto layer = json.find("layer"); layer != json.end()) {
+    found.keep({layer->get<std::string>(), json.value("problems", std::vector<std::string>())});
+    json.erase("layer");
+  }
+  return json;
+}
+
+Result<Json> tell_logs(Session::State& state, ClientNumber, const Asked&, Outbox&) {
+  const std::string why = why_not(state.options.identify);
+  return Json{{"logs", state.options.identify.logs},
+              {"layer", layer_path(state)},
+              {"whyNot", why.empty() ? Json(nullptr) : Json(why)}};
+}
+
+Result<Json> identify(Session::State& state, ClientNumber client, const Asked& asked, Outbox&) {
+  if (const std::string why = why_not(state.options.identify); !why.empty()) {
+    return Error(ErrorCode::Missing, why)
+        .with_rule("python.missing")
+        .with_fix("install the package, and start its tenon view");
+  }
+  TENON_TRY(const IdentifyWish wish, wish_of(state, asked));
+  TENON_TRY(const std::shared_ptr<Work> work, state.begin_work(client, "identify"));
+  state.later_is_outside = true;
+  state.later = [wish, work, run = state.options.identify.run,
+                 found = state.found_layer]() -> Result<Json> {
+    TENON_TRY(const IdentifyEnd end, run(wish, *work));
+    return answer_of(end, *work, *found);
+  };
+  return Json();
+}
+
+Result<Json> write_identified(Session::State& state, ClientNumber, const Asked& asked,
+                              Outbox& out) {
+  const FoundLayer::Layer layer = state.found_layer->get();
+  if (layer.text.empty()) {
+    return refused("nothing was identified yet", "solve first");
+  }
+  if (!layer.problems.empty() && !asked.flag("force")) {
+    return refused("it is not written: " + layer.problems.front(),
+                   "look at what is left; `force` writes it all the same");
+  }
+  read_anew();
+  EditedFile file;
+  file.path = layer_path(state);
+  file.after = layer.text;
+  file.text = true;
+  const bytes::Files& from = state.options.asset.open.files;
+  if (from->kind(file.path) != bytes::NameKind::Nothing) {
+    TENON_TRY(const auto there, from->open(file.path, {}));
+    file.before = std::string(there->text());
+  }
+  EditedAsset made;
+  made.files.push_back(std::move(file));
+  return write_made(state, {}, made, asked.flag("dryRun"), out);
+}
+
+constexpr std::array<Field, 0> kNoIdentifyFields{};
+constexpr std::array kIdentifyRequests{
+    Request{{"identifyLogs", kNoIdentifyFields, "The logs that can be identified from", &kLogs},
+            tell_logs},
+    Request{{"identify", kIdentifyFields, "A stage of `tenon identify`; beside other long requests",
+             &kIdentified},
+            identify},
+    Request{{"writeIdentified", kWriteFields,
+             "Writes what the last `solve` found as a layer over the asset", &kEdited},
+            write_identified},
+};
+
+}  // namespace
+
+std::span<const Request> identify_requests() { return kIdentifyRequests; }
+
+}  // namespace tenon::live
