@@ -148,6 +148,19 @@ def judgements_of_pages_and_python():
                                         "build/release/bin/tenon docs/identify.md"],
                     "release", ["tenon_cli", "tenon_worker"],
                     "python/tests/requirements-sysid.txt")
+    # Fits from several starts on a cluster of Ray.
+    yield Judgement("identify_ray", ["bash", "-c", "python/tests/install.sh && TENON_RAY=1 "
+                                     "PYTHONPATH=$(echo build/wheel/clean/lib/python*/"
+                                     "site-packages) {engine} -B "
+                                     "python/tests/test_identify_truth.py -k on_ray"], "release",
+                    (), "tests/sweep/requirements-sweep.txt")
+    # Logs of another simulator, with effects that the model lacks.
+    yield Judgement("identify_drake", ["bash", "-c", "python/tests/install.sh && "
+                                       "python/tests/run.sh build/wheel/beside "
+                                       "python/tests/identify_drake.py . "
+                                       "build/release/bin/tenon {engine} docs/identify.md"],
+                    "release", ["tenon_cli", "tenon_worker"],
+                    "tests/convert/requirements-sdf.txt")
     yield Judgement("clean_root", ["bash", "-c", "python/tests/install.sh && "
                                    "python/tests/clean_root.sh"], "release")
     yield Judgement("python_sanitized", ["bash", "-c", "python/tests/install.sh && "

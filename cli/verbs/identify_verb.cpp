@@ -17,9 +17,9 @@ namespace {
 constexpr std::array kIdentifyRows{
     PythonOption{"--identify", "FAMILY:REGEX",
                  "What to identify of which joints or bodies; =LOW..HIGH behind it for bounds. "
-                 "Families: friction, damping, armature, stiffness, driveDamping, gains (both), "
-                 "maxForce, delay, mass, offset, effortScale, contactFriction. Without it what "
-                 "logs usually tell",
+                 "Families: friction, damping, stribeck, stribeckSpeed, armature, stiffness, "
+                 "driveDamping, gains (both), maxForce, delay, mass, offset, effortScale, "
+                 "contactFriction. Without it what logs usually tell",
                  true},
     PythonOption{"--parameters", "FILE", "The same as tables [[parameter]] of a TOML file"},
     PythonOption{"--prior", "FAMILY:REGEX=VALUE,DEVIATION",
@@ -44,11 +44,15 @@ constexpr std::array kIdentifyRows{
     PythonOption{"--check", "", "Fit nothing: only say what the logs tell"},
     PythonOption{"--report", "FILE", "One page with tables and plots (.html)"},
     PythonOption{"--write", "FILE", "A layer over the asset with the numbers (.usda)"},
+    PythonOption{"--dry-run", "",
+                 "Print the layer that --write would write, with --json as its field layer"},
     PythonOption{"--force", "",
                  "Write also what predicts held-out motion no better, and over a file"},
     PythonOption{"--self-test", "", "Make a log with other numbers and find them: no LOG"},
     PythonOption{"--duration", "SECONDS", "Of the log of --self-test"},
     PythonOption{"--finer", "COUNT", "Steps of the log of --self-test in one time step, 4"},
+    PythonOption{"--progress", "",
+                 "How far it is as lines of standard error, for programs that show it"},
 };
 
 constexpr const char* kIdentifyFooter =

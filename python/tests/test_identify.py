@@ -34,6 +34,7 @@ try:
     from tenon_usd.identify.identifiable import judge
     from tenon_usd.identify.identify_command import _parser, main
     from tenon_usd.identify.joints import AssetJoint
+    from tenon_usd.identify.linear import linear_start
     from tenon_usd.identify.log import Log, LogError
     from tenon_usd.identify.log_files import read_log
     from tenon_usd.identify.model import Held, Model, joined_logs, windows_of
@@ -120,12 +121,18 @@ class Rows(support.FilesTestCase):
                          [Row("armature", "elbow", prior=0.01, deviation=0.002)])
         with self.assertRaisesRegex(NotFoundError, "did you mean 'friction'"):
             rows_from_text("fricton")
-        with self.assertRaisesRegex(NotFoundError, "stribeck cannot be identified: engines"):
-            rows_from_text("stribeck:.*")
+        with self.assertRaisesRegex(NotFoundError, "inertia cannot be identified: engines"):
+            rows_from_text("inertia:.*")
         for text in ("friction=1", "friction=2..1", "friction=a..b", "friction=1..inf"):
             self.assertRaises(InvalidError, rows_from_text, text)
         for text in ("friction", "friction=1", "friction=1,-2"):
             self.assertRaises(InvalidError, prior_from_text, text)
+
+    def test_the_help_names_all_families(self):
+        answer = subprocess.run([PROGRAM, "identify", "--help"], capture_output=True, text=True,
+                                check=True).stdout
+        told = re.search(r"Families: ([^.]*)\.", " ".join(answer.split()))[1]
+        self.assertEqual(set(re.split(r", | \(both\),? ?", told)) - {""}, {*FAMILIES, "gains"})
 
     def test_a_file_has_the_same_rows_and_its_faults_have_lines(self):
         path = self.written("p.toml", '[[parameter]]\nfamily = "damping"\njoints = "elbow"\n'

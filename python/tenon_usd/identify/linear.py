@@ -25,9 +25,12 @@ from ..sweep.cases import ExtraMissing
 from .log import Array
 from .model import Held, Model, has
 from .parameters import POWERS, Parameter
+from .stribeck import DECAY
 
 #: Samples of the inverse dynamics.
 MAX_SAMPLES = 400
+#: What acts along a joint beside its weight and the inertia of links.
+PLANT = ("armature", "damping", "friction", "stribeck")
 #: Delays that are tried, in steps of the model.
 MAX_DELAYS = 60
 
@@ -114,7 +117,7 @@ def _gains_of(model: Model, parameters: list[Parameter], values: Array, moves: l
     delays = (np.arange(MAX_DELAYS) - MAX_DELAYS // 10) * model.step if is_late else np.zeros(1)
     errors = np.zeros(len(delays))
     found: dict[tuple[int, int], tuple[Array, list[int]]] = {}
-    for column, _, position, _ in model._aimed:
+    for column, _, position, velocity in model._aimed:
         joint = log.joints[column]
         own = [_of(parameters, family, joint) for family in ("stiffness", "driveDamping")]
         if joint not in joints or position is None or moves[column] is None \
@@ -127,7 +130,9 @@ def _gains_of(model: Model, parameters: list[Parameter], values: Array, moves: l
             continue
         place, speed, _ = moves[column]
         for at, delay in enumerate(delays):
-            matrix, wanted, mine = _drive_rows(position, log.times, delay, place, speed,
+            times = log.times - delay - 1e-9
+            aimed = position.at(times), velocity.at(times) if velocity else 0.0
+            matrix, wanted, mine = _drive_rows((aimed[0] - place, aimed[1] - speed),
                                                log.effort[:, column], own, drive)
             if mine:
                 made = _bounded(optimize, matrix[good], wanted[good],
@@ -148,11 +153,10 @@ def _gains_of(model: Model, parameters: list[Parameter], values: Array, moves: l
     return float(delays[alike].mean())
 
 
-def _drive_rows(position: Held, times: Array, delay: float, place: Array, speed: Array,
-                effort: Array, own: list[int | None], drive: Any) -> tuple[Array, Array, list[int]]:
-    """Columns of the gains that are asked for, what they have to explain, and their numbers."""
-    command = position.at(times - delay - 1e-9)
-    columns = [command - place, -speed]
+def _drive_rows(columns: tuple[Array, Array], effort: Array, own: list[int | None], drive: Any
+                ) -> tuple[Array, Array, list[int]]:
+    """Of how far a drive is from its targets of position and velocity the columns of the gains
+    that are asked for, what they have to explain, and their numbers."""
     known = [drive.stiffness, drive.damping]
     wanted = effort.copy()
     mine, kept = [], []
@@ -170,7 +174,7 @@ def _plants(model: Model, parameters: list[Parameter], values: Array, moves: lis
     """Armature, damping and friction of joints whose effort is in the log."""
     log = model.log
     assert log.effort is not None
-    wanted = [each for each in parameters if each.family in ("armature", "damping", "friction")]
+    wanted = [each for each in parameters if each.family in PLANT]
     if not wanted or any(move is None for move in moves):
         return
     at = np.arange(3, len(log) - 3, max(1, len(log) // MAX_SAMPLES))
@@ -178,8 +182,7 @@ def _plants(model: Model, parameters: list[Parameter], values: Array, moves: lis
     if needed is None:
         return
     for column, joint in enumerate(log.joints):
-        own = [(family, _of(parameters, family, joint))
-               for family in ("armature", "damping", "friction")]
+        own = [(family, _of(parameters, family, joint)) for family in PLANT]
         mine = [number for _, number in own if number is not None]
         if not mine or not has(log.effort, column):
             continue
@@ -187,6 +190,7 @@ def _plants(model: Model, parameters: list[Parameter], values: Array, moves: lis
         # Where a joint hardly moves the sign of its speed is not known.
         still = 0.05 * float(np.max(np.abs(speed)) or 1.0)
         columns = {"armature": turn, "damping": speed, "friction": np.tanh(speed / still)}
+        columns["stribeck"] = columns["friction"] * np.exp(-(speed / DECAY) ** 2)
         rest = log.effort[at, column] - _with_followers(model, needed, column)
         for family, number in own:
             rest = rest - _known(model, parameters, family, number, joint) * columns[family]
@@ -218,6 +222,8 @@ def _known(model: Model, parameters: list[Parameter], family: str, number: int |
            joint: str) -> float:
     """What the asset says of a joint and its followers, as the joint feels it, without those that
     the parameter means."""
+    if family == "stribeck":
+        return 0.0
     asked = parameters[number].paths if number is not None else ()
     paths = {joint: 1.0, **{path: abs(ratio) for path, (leader, ratio)
                             in model.plant.followers.items() if leader == joint}}

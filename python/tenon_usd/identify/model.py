@@ -26,6 +26,7 @@ from ..world import World
 from .log import Array, Log
 from .parameters import FAMILIES, Parameter, Plant, plant_of
 from .states import closed, initial_states
+from .stribeck import DECAY, RestFriction, resisted
 
 #: Steps, and parts of the way to the next ones.
 Places = tuple[npt.NDArray[np.int64], Array]
@@ -165,7 +166,7 @@ class Model:
         self.scene = world.scene
         self.parts = tuple(parts)
         self.columns = self._columns(world)
-        self.plant = plant_of(world, _inertia(world))
+        self.plant = plant_of(world, inertia_of(world))
         self._find_commands(world)
         self.windows = windows_of(
             log, window or (OPEN_WINDOW if self._pushed else WINDOW), parts)
@@ -378,7 +379,11 @@ class Model:
         first = self._where(world)
         targets = self._targets(world, sets, parameters, offsets)
         efforts = self._efforts(world, sets, parameters, scales)
-        states = self._step(world, first, targets, efforts)
+        rest = self._rest(parameters, sets)
+        if rest is not None and efforts is None:
+            none = np.zeros((1, world.envs, len(world.joint_names)))
+            efforts = np.broadcast_to(none, (self.steps, *none.shape[1:]))
+        states = self._step(world, first, targets, efforts, rest)
         made = {}
         for name, values in states.items():
             made[name] = self._sampled(values, count, self._places[name])
@@ -388,6 +393,17 @@ class Model:
             made["effort"] *= scales[:, None, None, :]
         made["position"] += offsets[:, None, None, :]
         return {name: made[name] for name in self.measured}
+
+    def _rest(self, parameters: list[Parameter], sets: Array) -> RestFriction | None:
+        if not any(each.family == "stribeck" for each in parameters):
+            return None
+        own = np.array([self.plant.inertia.get(joint, 0.0) for joint in self.log.joints])
+        named = np.array([self.plant.joints[joint].armature for joint in self.log.joints])
+        armature = self._special(parameters, sets, "armature", np.nan)
+        inertia = np.maximum(np.where(np.isnan(armature), own, own - named + armature), 1e-9)
+        return RestFriction(self._special(parameters, sets, "stribeck", 0.0),
+                            self._special(parameters, sets, "stribeckSpeed", DECAY), inertia,
+                            self.step).rows(len(self.windows))
 
     def _lawful_efforts(self, world: World, parameters: list[Parameter], sets: Array,
                         offsets: Array, delays: Array, made: dict[str, Array]) -> None:
@@ -476,7 +492,7 @@ class Model:
         return made
 
     def _step(self, world: World, first: dict[str, Array], targets: tuple[Array, Array] | None,
-              efforts: Array | None) -> dict[str, Array]:
+              efforts: Array | None, rest: RestFriction | None) -> dict[str, Array]:
         """The states after each step, the start included: (steps + 1, envs, N) by channel."""
         effort = "effort" in self.measured
         wanted = [name for name in CHANNELS if name == "position" or effort
@@ -489,13 +505,15 @@ class Model:
                   if not is_plain(self.plant.drives[self.log.joints[column]])]
         columns, places, speeds = _as_slice(self.columns), made["position"], made.get("velocity")
         changed = _changes(targets, self.steps)
+        turning = first["velocity"]
         for k in range(self.steps):
             if targets is not None and changed[k]:
                 batch.set_targets(targets[0][k], targets[1][k])
             if efforts is not None:
-                batch.set_efforts(efforts[k])
+                batch.set_efforts(resisted(efforts[k], rest, columns, turning))
             batch.step(1)
             own, speed = batch.joints()
+            turning = speed[:, columns]
             places[k + 1] = own[:, columns]
             if speeds is not None:
                 speeds[k + 1] = speed[:, columns]
@@ -515,8 +533,9 @@ class Model:
         made = np.empty((count, wide, self.windows.samples, states.shape[-1]))
         for w in range(wide):
             before, part = places[0][w], places[1][w][:, None, None]
-            made[:, w] = np.moveaxis((1 - part) * by_set[before, :, w]
-                                     + part * by_set[before + 1, :, w], 0, 1)
+            with np.errstate(invalid="ignore", over="ignore"):  # of what became unstable
+                made[:, w] = np.moveaxis((1 - part) * by_set[before, :, w]
+                                         + part * by_set[before + 1, :, w], 0, 1)
         return made
 
 
@@ -538,7 +557,7 @@ def _changes(targets: tuple[Array, Array] | None, steps: int) -> list[bool]:
 def is_stiff(world: World) -> bool:
     """Whether damping takes so much within a time step that INTEGRATORS may become unstable; where
     friction holds such joints they do not."""
-    inertia = _inertia(world)
+    inertia = inertia_of(world)
     return any((joint.damping + sum(each.damping for each in joint.drives[:1])) * world.time_step
                > MOST_DAMPED * inertia.get(joint.path, math.inf) for joint in world.scene.joints)
 
@@ -562,7 +581,7 @@ def _neighbours(place: Array, last: int) -> Places:
     return before, np.asarray(place - before)
 
 
-def _inertia(world: World) -> dict[str, float]:
+def inertia_of(world: World) -> dict[str, float]:
     """What each joint has to accelerate with the others held [kg m^2 or kg]."""
     try:
         dynamics = Dynamics(world.scene)

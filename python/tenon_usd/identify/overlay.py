@@ -32,6 +32,8 @@ NOT_WRITTEN = {
     "delay": "no schema of drives has it; tenon_usd.actuators.Delay simulates it",
     "offset": "it belongs to the encoder; correct it where the robot is calibrated",
     "effortScale": "it belongs to the sensor of the log",
+    "stribeck": "no schema has friction that is larger at rest",
+    "stribeckSpeed": "no schema has friction that is larger at rest",
     "contactFriction": "shapes share materials; set physics:dynamicFriction of the material",
 }
 

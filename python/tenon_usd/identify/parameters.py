@@ -22,6 +22,7 @@ from ..actuators import fitting
 from ..errors import InvalidError, NotFoundError
 from ..world import World
 from .log import Log
+from .stribeck import DECAY
 
 MAX_FILE_BYTES = 1 << 20
 MAX_PARAMETERS = 400
@@ -47,6 +48,10 @@ FAMILIES = {
                        "slow motion that turns back several times, and the effort in the log"),
     "damping": Family("joint", "N m s/rad or N s/m", "jointDamping", 0, math.inf,
                       "constant speeds, slow and fast ones"),
+    "stribeck": Family("joint", "N m or N", "", 0, math.inf,
+                       "slow motion that stops and turns back, and the effort in the log"),
+    "stribeckSpeed": Family("joint", "rad/s or m/s", "", 1e-3, 100,
+                            "motion at speeds below and above it, and the effort in the log"),
     "armature": Family("joint", "kg m^2 or kg", "jointArmature", 0, math.inf,
                        "fast accelerations, such as a chirp"),
     "stiffness": Family("drive", "N m/rad or N/m", "driveStiffness", 0, math.inf, _GAINS),
@@ -67,7 +72,6 @@ FAMILIES = {
 GROUPS = {"gains": ("stiffness", "driveDamping")}
 #: What logs could tell and no engine here takes while it runs, with the reason.
 UNSUPPORTED = {
-    "stribeck": "engines have one friction for rest and motion; identify friction and damping",
     "inertia": "engines change masses while they run, and inertia with them; identify mass",
     "centerOfMass": "engines change masses while they run, not where they are; identify mass",
     "mimicRatio": "ratios of mimics are part of the model; set them and identify again",
@@ -307,6 +311,8 @@ def _nominal(plant: Plant, family: str, path: str) -> float:
         return float(plant.bodies[path].mass)
     if family == "contactFriction":
         return plant.colliders[path]
+    if family == "stribeckSpeed":
+        return DECAY
     return 1.0 if family == "effortScale" else 0.0
 
 
@@ -316,7 +322,8 @@ def _scale(plant: Plant, log: Log, family: str, path: str, nominal: float) -> fl
         return max(log.step, 1e-3)
     if family == "offset":
         return 0.02
-    if family not in ("friction", "damping", "armature", "stiffness", "driveDamping", "maxForce"):
+    if family not in ("friction", "stribeck", "damping", "armature", "stiffness", "driveDamping",
+                      "maxForce"):
         return max(nominal, 0.1)
     at = log.joints.index(path)
     inertia = plant.inertia.get(path, 0.0) or 1e-3
@@ -325,7 +332,7 @@ def _scale(plant: Plant, log: Log, family: str, path: str, nominal: float) -> fl
     if not effort:
         turn = _size(_slope(log, 2), at) or 1.0
         effort = inertia * turn
-    typical = {"friction": 0.1 * effort, "damping": 0.1 * effort / speed,
+    typical = {"friction": 0.1 * effort, "stribeck": 0.1 * effort, "damping": 0.1 * effort / speed,
                "armature": 0.1 * inertia, "stiffness": effort / max(_size(log.position, at), 1e-3),
                "driveDamping": 0.1 * effort / speed, "maxForce": effort}[family]
     return float(max(nominal if math.isfinite(nominal) else 0.0, typical, 1e-9))

@@ -20,16 +20,18 @@ from ..errors import InvalidError, UnstableError
 from ..world import World
 from .identifiable import Identifiability
 from .log import Array, Log
-from .model import INTEGRATORS, Model, is_stiff, largest_speed
+from .model import INTEGRATORS, Model, inertia_of, is_stiff, largest_speed
 from .parameters import FAMILIES, Parameter, Row, select, summed
 from .solve import Shown, Solution, look, solve
+from .stribeck import DECAY, RestFriction
 
 #: What is identified where nothing is named.
 DEFAULT_FAMILIES = ("friction", "damping", "armature", "stiffness", "driveDamping", "delay")
 #: How far off each family may be: a part of the truth; of delays a part of the time step.
 ALLOWED = {"friction": 0.05, "damping": 0.05, "armature": 0.05, "stiffness": 0.02,
            "driveDamping": 0.02, "delay": 0.5, "mass": 0.05, "maxForce": 0.02,
-           "effortScale": 0.02, "offset": 0.05, "contactFriction": 0.1}
+           "effortScale": 0.02, "offset": 0.05, "contactFriction": 0.1, "stribeck": 0.25,
+           "stribeckSpeed": 0.25}
 
 
 #: Of their largest speed, how fast commands are; of their size, how small at the smallest.
@@ -148,19 +150,17 @@ def _excited(random: np.random.Generator, times: Array, low: float, high: float,
 
 
 def _give(world: World, parameters: Sequence[Parameter],
-          values: Array) -> tuple[dict[str, float], dict[str, float]]:
-    """Sets what a world has of the numbers. Returns delays and offsets by path."""
-    delays, offsets = dict[str, float](), dict[str, float]()
+          values: Array) -> dict[str, dict[str, float]]:
+    """Sets what a world has of the numbers. Returns others by family and path."""
+    others = {family: dict[str, float]() for family, each in FAMILIES.items() if not each.sets}
     for parameter, value in zip(parameters, values):
         name = FAMILIES[parameter.family].sets
         for path, share in parameter.parts:
             if name:
                 world.set_parameter(name, path, share * value)
-            elif parameter.family == "delay":
-                delays[path] = value
-            elif parameter.family == "offset":
-                offsets[path] = value
-    return delays, offsets
+            else:
+                others[parameter.family][path] = value
+    return others
 
 
 def simulated(asset: Any, parameters: Sequence[Parameter], values: Array, commanded: Log, *,
@@ -190,7 +190,9 @@ def _simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comma
                ) -> Log:
     world = World(asset, engine, 1, time_step=step, outputs=["efforts"] + (
         [] if touches is None else ["contacts"]), **options)
-    delays, offsets = _give(world, parameters, values)
+    others = _give(world, parameters, values)
+    delays, offsets = others["delay"], others["offset"]
+    rest = _rest(world, parameters, values, others, step)
     assert commanded.command_position is not None
     joints = list(commanded.joints)
     columns = [world.joint_names.index(joint) for joint in joints]
@@ -210,6 +212,8 @@ def _simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comma
             sample = max(0, int(np.searchsorted(commanded.times, time - late + 1e-9, "right")) - 1)
             targets[0, drive] = commanded.command_position[sample, column] - shift[column]
         world.set_drive_targets(targets)
+        if rest is not None:
+            world.set_efforts(rest.effort(world.joints()[1]))
         world.step()
         if touches is not None:
             count = int(world.contact_counts[0])
@@ -234,6 +238,22 @@ def _simulated(asset: Any, parameters: Sequence[Parameter], values: Array, comma
                                     place[:, column], speed[:, column])
     return dataclasses.replace(commanded, position=place, velocity=speed, effort=force,
                                source="self-test")
+
+
+def _rest(world: World, parameters: Sequence[Parameter], values: Array,
+          others: dict[str, dict[str, float]], step: float) -> RestFriction | None:
+    """Of all coordinates: (1, joints)."""
+    if not others["stribeck"]:
+        return None
+    names = world.joint_names
+    extra, decay = (np.array([[others[family].get(name, usual) for name in names]])
+                    for family, usual in (("stribeck", 0.0), ("stribeckSpeed", DECAY)))
+    inertia = inertia_of(world)
+    for each, value in zip(parameters, values):
+        if each.family == "armature" and each.paths[0] in inertia:
+            inertia[each.paths[0]] += value - each.nominal
+    return RestFriction(extra, decay, np.array([[inertia.get(name, np.inf) for name in names]]),
+                        step)
 
 
 def _begin(world: World, commanded: Log, columns: list[int], shift: Array) -> Array:

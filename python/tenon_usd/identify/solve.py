@@ -339,7 +339,7 @@ def _of_time_step(fit: _Fit, values: Array, jacobian: Array) -> Array:
 
 def _inverse(jacobian: Array) -> Array:
     """Of J'J, without what nothing tells."""
-    sizes = np.maximum(np.linalg.norm(jacobian, axis=0), 1e-300)
+    sizes = np.maximum(np.linalg.norm(jacobian, axis=0), 1e-150)  # squares are not 0
     scaled = jacobian / sizes
     return np.asarray(np.linalg.pinv(scaled.T @ scaled, rcond=1e-12, hermitian=True)
                       / np.outer(sizes, sizes))
