@@ -166,7 +166,7 @@ def _drive_rows(columns: tuple[Array, Array], effort: Array, own: list[int | Non
         else:
             mine.append(number)
             kept.append(column)
-    return np.stack(kept, axis=1) if kept else np.zeros((len(times), 0)), wanted, mine
+    return np.stack(kept, axis=1) if kept else np.zeros((len(effort), 0)), wanted, mine
 
 
 def _plants(model: Model, parameters: list[Parameter], values: Array, moves: list[Any],
