@@ -23,8 +23,8 @@ MOST_ERROR = 0.5
 #: Parts of a direction that belong to a group of parameters that only appear together.
 TOGETHER = 0.2
 #: Directions in which columns of length 1 move by less are as good as none: differences of
-#: simulations are no more exact than that.
-DOUBT = 1e-3
+#: simulations, in which friction sets in at once, are no more exact than that.
+DOUBT = 5e-3
 #: Noise counts as at least this part of a signal's deviation: no model is better than that.
 LEAST_NOISE = 0.01
 
@@ -173,7 +173,7 @@ def judge(parameters: list[Parameter], jacobian: Array, values: Array, doubt: fl
     errors = np.where(seen > 1e-9, np.sqrt(variances) / lengths, np.inf)
     least = MOST_ERROR * _wholes(parameters, values)
     refused = tuple(int(i) for i in np.flatnonzero(errors * scales > least))
-    groups = _groups(right, singular, lengths, refused)
+    groups = _groups(right, np.where(singular > doubt, singular, 0.0), lengths, refused)
     return Identifiability(errors * scales, seen, np.linalg.svd(triangle, compute_uv=False), groups,
                            refused)
 
