@@ -31,6 +31,13 @@ class SharedLibrary {
   }
   void* address(const char* name) const;
 
+  /// Makes the library's own calls of one of its functions go to `other`, which takes the same
+  /// arguments. Nobody else's calls change. False, with nothing changed, where it makes none that
+  /// the loader binds, or this system is none that this is known to work on.
+  bool redirect(const char* name, void* other) const;
+  /// Whether the process has that file open already.
+  static bool is_open(const std::string& file);
+
  private:
   void* handle_ = nullptr;
   std::string why_not_;

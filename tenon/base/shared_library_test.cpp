@@ -27,6 +27,17 @@ TEST(SharedLibrary, WhatIsWrongWithEachIsTold) {
   EXPECT_FALSE(library.find("abs", none));
 }
 
+TEST(SharedLibrary, WhatIsOpenIsKnown) {
+  EXPECT_TRUE(SharedLibrary::is_open("libc.so.6"));
+  EXPECT_FALSE(SharedLibrary::is_open("libno_such_library.so"));
+}
+
+TEST(SharedLibrary, CallsThatThereAreNotAreNotRedirected) {
+  int other = 0;
+  EXPECT_FALSE(SharedLibrary::open({"libno_such.so"}).redirect("abs", &other));
+  EXPECT_FALSE(SharedLibrary::open({"libc.so.6"}).redirect("no_such_function_here", &other));
+}
+
 TEST(SharedLibrary, ThisCodeIsInAFolder) { EXPECT_TRUE(folder_of_this_code().ends_with('/')); }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tenon/base/shared_library.h"
+#include "tenon/engines/mujoco/set_up/set_const_groups.h"
 
 namespace tenon {
 
@@ -19,9 +20,17 @@ namespace {
 
 mjfConFilt* contact_filter = nullptr;
 mjfGeneric* control = nullptr;
+bool is_shared = false;  // the library was open before
+bool set_up_redirected = false;
+
+SharedLibrary open_own() {
+  const std::string file = own_library(TENON_MUJOCO_SONAME);
+  is_shared = SharedLibrary::is_open(file);
+  return SharedLibrary::open({file});
+}
 
 const SharedLibrary& library() {
-  static const SharedLibrary opened = SharedLibrary::open({own_library(TENON_MUJOCO_SONAME)});
+  static const SharedLibrary opened = open_own();
   return opened;
 }
 
@@ -42,7 +51,12 @@ std::string find_symbols() {
   if (!library().find("mjcb_control", control)) {
     return "it has no mjcb_control";
   }
-  return library().find("mjcb_contactfilter", contact_filter) ? "" : "it has no mjcb_contactfilter";
+  if (!library().find("mjcb_contactfilter", contact_filter)) {
+    return "it has no mjcb_contactfilter";
+  }
+  set_up_redirected = !is_shared && library().redirect("mj_setConstGroups",
+                                                       reinterpret_cast<void*>(&set_const_groups));
+  return "";
 }
 
 }  // namespace
@@ -57,6 +71,8 @@ Result<void> open_mujoco() {
       .with_rule("engine.missing")
       .with_fix("install tenon with its folder lib/tenon, which holds the library");
 }
+
+bool sets_up_by_ours() { return set_up_redirected; }
 
 void* find_mujoco_function(const char* name) { return library().address(name); }
 

@@ -26,6 +26,10 @@ namespace tenon::engines::mujoco {
 /// version.
 Result<void> open_mujoco();
 
+/// Whether MuJoCo's compiler calls set_const_groups() in the place of its own. Not where the
+/// library was open before: then it is another's, too. After open_mujoco() was successful.
+bool sets_up_by_ours();
+
 /// A function that is not in the table, because the program is to have no way to it; nullptr: none.
 /// After open_mujoco() was successful.
 void* find_mujoco_function(const char* name);
