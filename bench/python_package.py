@@ -141,14 +141,19 @@ def many_prims(folder, count):
     return path
 
 
-def run(code):
+def output(code):
+    """What a program prints in the environment with the package and what is beside it."""
     packages = glob.glob(os.path.join(WHEEL, "clean/lib/python*/site-packages"))[0]
     done = subprocess.run([os.path.join(WHEEL, "beside/bin/python"), "-c", code], check=False,
                           capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": packages, "PXR_WORK_THREAD_LIMIT": "1"})
     if done.returncode:
         sys.exit(f"bench: {done.stderr}")
-    return float(done.stdout.split()[-1])
+    return done.stdout
+
+
+def run(code):
+    return float(output(code).split()[-1])
 
 
 def beside(name, ours, theirs, rounds, unit="ms", scale=1e3):

@@ -126,6 +126,9 @@ def judgements_of_pages_and_python():
                                      "python3 -B bench/python_package.py --smoke && "
                                      "python/tests/run.sh build/wheel/clean "
                                      "python/tests/many_opens.py"], "release")
+    yield Judgement("vector_environments", ["bash", "-c", "python/tests/install.sh && python3 -B "
+                                            "bench/vector_environments.py "
+                                            "docs/vector-environments.md"], "release")
     yield Judgement("python_versions", ["python/tests/versions.sh"], "release")
     yield Judgement("python_types", ["bash", "-c", "python/tests/install.sh && "
                                      "python/tests/pyright.sh"], "release")

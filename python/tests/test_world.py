@@ -241,6 +241,22 @@ def Xform "W"
         np.testing.assert_array_equal(one, run(5))
         self.assertGreater(np.ptp(one, axis=0).max(), 0)
 
+    def test_many_step_bit_for_bit_as_one_alone(self):
+        # Many lend each other what they step with; outputs that are asked for keep it.
+        for outputs in ([], ["contacts"]):
+            many = tenon.World(support.GRASP, "mujoco", 3, outputs=outputs)
+            alone = tenon.World(support.GRASP, "mujoco", 1, outputs=outputs)
+            for step in range(80):
+                for world in (many, alone):
+                    world.drive_targets = 0.005 * step
+                    world.step()
+                self.assertEqual(many.contact_counts[1], alone.contact_counts[0])
+                if step % 20 == 0:
+                    np.testing.assert_array_equal(many.body_poses[1], alone.body_poses[0])
+            self.assertGreater(alone.contact_counts[0], 0)
+            np.testing.assert_array_equal(many.body_velocities[2], alone.body_velocities[0])
+            self.assertEqual(many.save()[0], alone.save()[0])
+
     def test_what_is_drawn_survives_a_reset(self):
         world = tenon.World(support.GRASP, envs=3, vary=["gravity=0.5..1.5"])
         gravity = world.gravity

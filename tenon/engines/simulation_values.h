@@ -208,7 +208,8 @@ struct EngineObjects {
   std::string_view engine;  ///< "mujoco"; says what the pointers are
   std::string_view version;
   const void* model = nullptr;  ///< mujoco: const mjModel*
-  const void* data = nullptr;   ///< mujoco: const mjData*
+  /// mujoco: const mjData*; of many environments it has the state, and not what a step computed.
+  const void* data = nullptr;
 };
 
 }  // namespace tenon::engines

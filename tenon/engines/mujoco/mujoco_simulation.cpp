@@ -5,11 +5,14 @@
 // breaks joints that carried too much. Bounds and gravity can be changed in the model; for other
 // changes of the scene it is rebuilt from the scene as it is now, and poses, velocities and joint
 // coordinates are carried over (S-28). Results come from the positions after the last step, from
-// which MuJoCo derives poses and velocities only when something is read.
+// which MuJoCo derives poses and velocities only when something is read. Many simulations of one
+// model step with data that they lend each other, so that the own data of each has no more than its
+// state.
 #include "tenon/engines/mujoco/mujoco_simulation.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -57,6 +60,7 @@ Result<std::unique_ptr<MujocoSimulation>> MujocoSimulation::make(const PhysicsSc
   start->asleep = sleeping_trees(*model.model, *model.data);
   model.shared = true;
   if (how_many > 1) {  // room for contacts and constraints of each further one
+    start->lender = std::make_unique<DataLender>();
     model.model->narena = std::min<mjtSize>(
         model.model->narena, kMemoryOfMany + kMemoryOfManyPerBody * scene.bodies.size());
   }
@@ -122,10 +126,44 @@ void MujocoSimulation::connect() {
     outputs_.emplace(outputs(), *scene_, model_);
     outputs_->work = work;
   }
+  contact_count_.reset();
   stale_ = true;
 }
 
 Result<void> MujocoSimulation::step() {
+  if (may_borrow()) {
+    if (DataPtr lent = start_->lender->take(*model_.model); lent != nullptr) {
+      return take_step_with(std::move(lent));
+    }
+  }
+  contact_count_.reset();
+  return take_step();
+}
+
+// Whether a step begins with the state of integration alone, and nothing but that is read after it.
+bool MujocoSimulation::may_borrow() const {
+  return start_->lender != nullptr && timeline_ == nullptr && !outputs_ && triggers_.empty() &&
+         !inputs_.has_acceleration_drives() && (model_.model->opt.enableflags & mjENBL_SLEEP) == 0;
+}
+
+Result<void> MujocoSimulation::take_step_with(DataPtr lent) {
+  mj_copyState(model_.model.get(), model_.data.get(), lent.get(), mjSTATE_INTEGRATION);
+  stale_ = true;
+  std::swap(model_.data, lent);
+  Result<void> done = take_step();
+  contact_count_ = read_contact_count(model_);
+  std::swap(model_.data, lent);
+  mj_copyState(model_.model.get(), lent.get(), model_.data.get(), mjSTATE_INTEGRATION);
+  stale_ = true;
+  if (done) {
+    start_->lender->give_back(std::move(lent));
+  } else {
+    std::copy(std::begin(lent->warning), std::end(lent->warning), model_.data->warning);
+  }
+  return done;
+}
+
+Result<void> MujocoSimulation::take_step() {
   if (timeline_ != nullptr) {
     TENON_CHECK(follow_changes());
   }
@@ -282,7 +320,9 @@ std::vector<scene::VendorSetting> MujocoSimulation::settings() const {
 std::size_t MujocoSimulation::dof_count() const {
   return static_cast<std::size_t>(model_.model->nv);
 }
-std::size_t MujocoSimulation::contact_count() const { return read_contact_count(model_); }
+std::size_t MujocoSimulation::contact_count() const {
+  return contact_count_ ? *contact_count_ : read_contact_count(model_);
+}
 
 BodyState MujocoSimulation::body_state(scene::Index body) const {
   bring_up_to_date();

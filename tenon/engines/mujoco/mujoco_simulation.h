@@ -10,6 +10,7 @@
 #include "tenon/base/diagnostics.h"
 #include "tenon/engines/mujoco/model.h"
 #include "tenon/engines/mujoco/run/breaking.h"
+#include "tenon/engines/mujoco/run/data_lender.h"
 #include "tenon/engines/mujoco/run/energy_watch.h"
 #include "tenon/engines/mujoco/run/limit_watch.h"
 #include "tenon/engines/mujoco/run/moving_bounds.h"
@@ -62,14 +63,16 @@ class MujocoSimulation final : public SteeredSimulation {
   const mjData& engine_data() const { return *model_.data; }
 
  private:
-  /// What reset() and another() begin with. Shared by all simulations of one model; never written.
+  /// What reset() and another() begin with. Shared by all simulations of one model; never written,
+  /// except for what they lend each other.
   struct Start {
     const scene::PhysicsScene* scene = nullptr;
     SimulationOptions options;
     ModelMaps maps;
     SharedModel model;
-    std::vector<double> state;  ///< mjSTATE_INTEGRATION
-    std::vector<int> asleep;    ///< mjData::tree_asleep
+    std::vector<double> state;           ///< mjSTATE_INTEGRATION
+    std::vector<int> asleep;             ///< mjData::tree_asleep
+    std::unique_ptr<DataLender> lender;  ///< of many, else null
     std::uint64_t scene_hash() const;
   };
   MujocoSimulation(std::shared_ptr<const Start> start, std::unique_ptr<scene::Timeline> timeline,
@@ -99,6 +102,9 @@ class MujocoSimulation final : public SteeredSimulation {
   Work work_of_run() const override { return outputs_->work; }
 
   void connect();
+  Result<void> take_step();
+  bool may_borrow() const;
+  Result<void> take_step_with(DataPtr lent);
   Result<void> apply_steering();
   Result<void> follow_changes();
   Result<void> rebuild(Restart restart);
@@ -125,6 +131,7 @@ class MujocoSimulation final : public SteeredSimulation {
   PassageWatch passages_;
   LimitWatch limits_;
   std::optional<StepOutputs> outputs_;
+  std::optional<std::size_t> contact_count_;  ///< of the last step, where that was of lent data
   mutable bool stale_ = true;
 };
 

@@ -406,6 +406,37 @@ TEST(Environments, ShareTheModelUntilOneHasValuesOfItsOwn) {
   EXPECT_NE(all[0].engine_objects().model, all[1].engine_objects().model);
 }
 
+TEST(Environments, StepWithDataThatTheyLendEachOther) {
+  TestScene scene;
+  scene.add_collider("ground", {}, ground());
+  const Index body = scene.add_body("box", {{0, 0, 0.11}}, 1, {{0.01, 0.01, 0.01}});
+  scene.add_collider("shape", body, box({{0.1, 0.1, 0.1}}));
+  scene.bodies[body].angular_damping = 0.5;
+  const auto alone = simulation(scene, kStep);
+  Diagnostics diagnostics;
+  auto made = engines::Environments::make(
+      {&info, &make_simulation, &make_simulations}, scene,
+      {.count = 3, .threads = 2, .simulation = {.time_step = kStep}}, diagnostics);
+  ASSERT_TRUE(made.has_value());
+  World& one = (*made)[1];
+  const Wrench push{{{0.5, 0, 0}}, {{0, 0, 0.1}}};
+  for (int i = 0; i < 200; ++i) {
+    if (i == 50) {
+      expect_ok(alone->set_body_wrench(body, push));
+      expect_ok(one.set_body_wrench(body, push));
+    }
+    expect_ok(alone->step());
+    EXPECT_EQ(made->step(), 0u);
+    ASSERT_EQ(one.contact_count(), alone->contact_count()) << i;
+    ASSERT_EQ(one.body_state(body).pose, alone->body_state(body).pose) << i;
+    ASSERT_EQ(one.energy().kinetic, alone->energy().kinetic) << i;
+  }
+  EXPECT_EQ(*one.save_state(), *alone->save_state());
+  EXPECT_GT(one.contact_count(), 0u);
+  // Where each of a thousand had its contacts, no cache would hold them.
+  EXPECT_EQ(static_cast<const mjData*>(one.engine_objects().data)->ncon, 0);
+}
+
 TEST(Environments, ThatFailStandStillUntilTheyAreReset) {
   const TestScene scene = arm();
   Diagnostics diagnostics;
