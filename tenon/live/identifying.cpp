@@ -12,12 +12,9 @@
 
 #include "tenon/base/text/shown_path.h"
 #include "tenon/live/session_state.h"
-#include "tenon/live/shapes.h"
 
 namespace tenon::live {
 namespace {
-
-constexpr std::uint32_t kMostStarts = 256;
 
 struct StageName {
   const char* name;
@@ -26,69 +23,6 @@ struct StageName {
 constexpr std::array kStages{StageName{"check", IdentifyStage::Check},
                              StageName{"solve", IdentifyStage::Solve},
                              StageName{"selfTest", IdentifyStage::SelfTest}};
-
-constexpr std::array kWordRow{Field{"text", kText}};
-constexpr Shape kWord{"Word", kWordRow};
-constexpr Field words(const char* name, const char* meaning) {
-  return {name, FieldType::Rows, false, meaning, 0, &kWord};
-}
-constexpr std::array kIdentifyFields{
-    Field{"stage", kText, true, "`check`, `solve` or `selfTest`"},
-    words("logs", "those to fit, of `identifyLogs`; default: all"),
-    words("heldOut", "logs that are not fitted, to prove the result on"),
-    words("parameters", "as `--identify` takes them; default: what logs usually tell"),
-    words("priors", "as `--prior` takes them"),
-    words("names", "what logs call a joint: NAME=JOINT"),
-    words("signs", "joints that logs count the other way: JOINT=-1"),
-    Field{"units", kText, false, "of logs that are not in SI: `deg`, `mm`"},
-    Field{"allowGaps", kFlag, false, "take logs in which samples are missing"},
-    Field{"hold", kFlag, false, "what the logs do not tell keeps the asset's number"},
-    Field{"training", kNumber, false, "of each log the part that is fitted; default 0.7"},
-    Field{"timeStep", kNumber, false, "[s]; default: the asset's"},
-    Field{"window", kNumber, false, "[s]; default: as the verb has it"},
-    Field{"starts", kInteger, false, "fits from as many starts; default 1", kMostStarts}};
-constexpr std::array kWriteFields{
-    Field{"force", kFlag, false, "also what predicts held-out motion no better"},
-    Field{"dryRun", kFlag, false, "tell the difference, write nothing"}};
-
-constexpr std::array kLogsFields{list("logs", kEachText, "files"),
-                                 Field{"layer", kText, true, "the file that is written"},
-                                 Field{"whyNot", kText, false, "nothing can be identified"}};
-constexpr Shape kLogs{"", kLogsFields};
-constexpr std::array kParameterFields{
-    Field{"name", kText},
-    Field{"family", kText},
-    Field{"unit", kText},
-    Field{"nominal", kNumber, false, "of the asset"},
-    may_miss({"value", kNumber, false, "identified"}),
-    may_miss({"low", kNumber, false, "of 95 %"}),
-    may_miss({"high", kNumber, false, "likewise"}),
-    may_miss({"expectedError", kNumber, false, "of the best fit"}),
-    may_miss({"told", kFlag, true, "whether the logs tell it"}),
-    may_miss({"truth", kNumber, false, "of a self-test"}),
-    may_miss({"found", kNumber, false, "likewise"}),
-    may_miss({"error", kNumber, false, "standard error; of a self-test the part that it is off"}),
-    may_miss({"passed", kFlag, true, "of a self-test"})};
-constexpr Shape kParameter{"IdentifiedParameter", kParameterFields, "identify"};
-constexpr std::array kCheckFields{rows("parameters", kParameter),
-                                  list("refused", kEachText, "why the logs do not tell them"),
-                                  Field{"quality", FieldType::Any}};
-constexpr Shape kCheck{"IdentifyCheck", kCheckFields, "identify --check"};
-constexpr std::array kLeftFields{Field{"channel", kText}, Field{"joint", kText},
-                                 Field{"before", kNumber, false}, Field{"after", kNumber, false}};
-constexpr Shape kLeft{"LeftOver", kLeftFields, "identify"};
-constexpr std::array kReplayFields{Field{"engine", kText}, Field{"before", kNumber, false},
-                                   Field{"after", kNumber, false}, Field{"why", kText}};
-constexpr Shape kReplay{"EngineReplay", kReplayFields, "identify"};
-constexpr std::array kIdentifiedFields{
-    Field{"ok", kFlag},
-    may_miss(object("check", kCheck, true)),
-    may_miss(rows("parameters", kParameter)),
-    may_miss(rows("heldOut", kLeft, "root mean squares of what is left")),
-    may_miss(rows("engines", kReplay)),
-    may_miss(rows("scores", kParameter, "of a self-test")),
-    may_miss(list("problems", kEachText, "why the layer would not be written"))};
-constexpr Shape kIdentified{"Identified", kIdentifiedFields, "identify"};
 
 std::vector<std::string> texts(const Asked& asked, const char* field) {
   std::vector<std::string> made;
@@ -114,7 +48,7 @@ Result<std::vector<std::string>> known_logs(const IdentifyTools& tools, const As
   for (const std::string& log : logs) {
     if (std::find(tools.logs.begin(), tools.logs.end(), log) == tools.logs.end()) {
       return refused("`" + shown_path(log) + "` is no log of this session",
-                     "start tenon view with --log FILE");
+                     "name logs when the viewer is started; its help says how");
     }
   }
   return logs;
@@ -143,7 +77,8 @@ Result<IdentifyWish> wish_of(const Session::State& state, const Asked& asked) {
     wish.logs.clear();
     wish.held_out.clear();
   } else if (wish.logs.empty()) {
-    return refused("there is no log to fit", "start tenon view with --log FILE");
+    return refused("there is no log to fit",
+                   "name logs when the viewer is started; its help says how");
   }
   wish.asset = state.options.asset.path;
   wish.engine = state.asset.engine;
@@ -184,7 +119,9 @@ Result<Json> answer_of(const IdentifyEnd& end, const Work& work, FoundLayer& fou
   return json;
 }
 
-Result<Json> tell_logs(Session::State& state, ClientNumber, const Asked&, Outbox&) {
+}  // namespace
+
+Result<Json> tell_identify_logs(Session::State& state, ClientNumber, const Asked&, Outbox&) {
   const std::string why = why_not(state.options.identify);
   return Json{{"logs", state.options.identify.logs},
               {"layer", layer_path(state)},
@@ -195,7 +132,7 @@ Result<Json> identify(Session::State& state, ClientNumber client, const Asked& a
   if (const std::string why = why_not(state.options.identify); !why.empty()) {
     return Error(ErrorCode::Missing, why)
         .with_rule("python.missing")
-        .with_fix("install the package, and start its tenon view");
+        .with_fix("install the Python package, and start the viewer again");
   }
   TENON_TRY(const IdentifyWish wish, wish_of(state, asked));
   TENON_TRY(const std::shared_ptr<Work> work, state.begin_work(client, "identify"));
@@ -232,21 +169,5 @@ Result<Json> write_identified(Session::State& state, ClientNumber, const Asked& 
   made.files.push_back(std::move(file));
   return write_made(state, {}, made, asked.flag("dryRun"), out);
 }
-
-constexpr std::array<Field, 0> kNoIdentifyFields{};
-constexpr std::array kIdentifyRequests{
-    Request{{"identifyLogs", kNoIdentifyFields, "The logs that can be identified from", &kLogs},
-            tell_logs},
-    Request{{"identify", kIdentifyFields, "A stage of `tenon identify`; beside other long requests",
-             &kIdentified},
-            identify},
-    Request{{"writeIdentified", kWriteFields,
-             "Writes what the last `solve` found as a layer over the asset", &kEdited},
-            write_identified},
-};
-
-}  // namespace
-
-std::span<const Request> identify_requests() { return kIdentifyRequests; }
 
 }  // namespace tenon::live

@@ -138,7 +138,7 @@ struct Request {
 };
 
 /// The truth about requests (requests.cpp), which has those of panels from panel_requests.cpp and
-/// identifying.cpp.
+/// identify_requests.cpp.
 std::span<const Request> all_requests();
 std::span<const Request> panel_requests();
 std::span<const Request> identify_requests();
@@ -209,5 +209,12 @@ Result<Json> import_poses(Session::State& state, ClientNumber client, const Aske
                           Outbox& out);
 Result<Json> apply_fixes(Session::State& state, ClientNumber client, const Asked& asked,
                          Outbox& out);
+
+// ---- of the panel "Identify" (identifying.cpp)
+Result<Json> tell_identify_logs(Session::State& state, ClientNumber client, const Asked& asked,
+                                Outbox& out);
+Result<Json> identify(Session::State& state, ClientNumber client, const Asked& asked, Outbox& out);
+Result<Json> write_identified(Session::State& state, ClientNumber client, const Asked& asked,
+                              Outbox& out);
 
 }  // namespace tenon::live

@@ -34,6 +34,7 @@ OF_MESSAGE = re.compile(r"Error\(ErrorCode::\w+,\s*$")
 # Files whose sentences tell what there is, and advise nothing.
 NO_ADVICE = ("cli/text/completion.cpp", "cli/program.cpp", "tenon/live/requests.cpp",
              "tenon/live/messages.cpp", "tenon/live/shapes.h", "tenon/live/panel_requests.cpp",
+             "tenon/live/identify_requests.cpp",
              "tenon/check/rules.cpp", "tenon/asset/authoring/kinds.cpp",
              "tenon/settings/settings_keys.cpp",
              "cli/text/settings_text.cpp")

@@ -14,6 +14,7 @@ import shutil
 import socket
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -26,6 +27,8 @@ if shutil.which("node") is None:  # no page, no viewer
 ROOT, TENON = pathlib.Path(sys.argv[1]).absolute(), str(pathlib.Path(sys.argv[2]).absolute())
 ASSET = ROOT / "examples/scenes/joint.usda"
 HTTP = "GET /{}/live.js HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n\r\n"
+FLOOD = 8  # [s]
+LONGEST_ANSWER = 10  # [s] while others flood the server
 MOST_MEMORY = 600 << 10  # [kB] resident; three times as much of a program with sanitizers
 RAW = [b"", b"\x00", b"{", b'{"do":', b'{"do":"play"', b'{"do":"play"}}', b'{"do":"play","do":1}',
        b'{"do":"play",}', b"[" * 60000, b'{"a":' * 10000, b'{"do":"play","id":' + b"[" * 50000,
@@ -92,8 +95,8 @@ class Attack(unittest.TestCase):
                 for name, field in fields.items():
                     for value in values_for(field):
                         client.ask(row["name"], **{name: value})
-                for value in WRONG:
-                    client.ask(row["name"], **dict.fromkeys(fields, value))
+                for value in WRONG:  # of ten fields at most: a message may have 64 KiB
+                    client.ask(row["name"], **dict.fromkeys(list(fields)[:10], value))
                 client.ask(row["name"], noSuchField=[[[[]]]])
                 client.notices.clear()
                 client.frames.clear()
@@ -131,6 +134,47 @@ class Attack(unittest.TestCase):
             except OSError:
                 pass  # it is held up, or the server has closed it
             other.done("pause")
+
+    def test_eight_clients_that_flood_it(self):
+        """Four that hear what comes and four that do not send all they can, edits among it, while
+        it plays; a ninth and plain HTTP are answered all the while."""
+        end = time.monotonic() + FLOOD
+        clients = [self.viewer.client() for _ in range(8)]
+        clients[0].done("play")
+        threads = [threading.Thread(target=self.flood, args=(client, number, end))
+                   for number, client in enumerate(clients)]
+        for thread in threads:
+            thread.start()
+        longest, answers = 0, 0
+        with self.viewer.client() as other:
+            while time.monotonic() < end:
+                start = time.monotonic()
+                other.done("messages")
+                self.assertTrue(self.viewer.lives())
+                longest, answers = max(longest, time.monotonic() - start), answers + 1
+                other.notices.clear()
+        for thread in threads:
+            thread.join()
+        for client in clients:
+            client.link.close()
+        self.assertGreater(answers, 1)
+        self.assertLess(longest, LONGEST_ANSWER)
+
+    def flood(self, client, number, end):
+        draw = random.Random(number)
+        client.link.settimeout(viewer.PATIENCE if number < 4 else 1)
+        while time.monotonic() < end:
+            row = draw.choice(self.requests)["name"]
+            fields = {"object": "/World.x", "value": str(draw.random())} if row == "set" else {}
+            try:
+                if number < 4:
+                    client.ask(row, **fields)
+                    client.notices.clear()
+                    client.frames.clear()
+                else:
+                    client.send_frame(json.dumps({"do": row, "id": 0, **fields}).encode())
+            except (OSError, viewer.Closed):
+                return  # it is held up, or the server has closed it
 
     def test_pages_that_come_and_go(self):
         for number in range(200):
