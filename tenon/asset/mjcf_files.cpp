@@ -7,9 +7,12 @@
 #include "tenon/asset/mjcf_files.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <pugixml.hpp>
@@ -43,6 +46,66 @@ pugi::xml_node next_in_text(pugi::xml_node node) {
   return node.next_sibling();
 }
 
+std::uint32_t line_of(pugi::xml_node node, std::string_view text) {
+  const auto end = text.begin() + std::min<std::ptrdiff_t>(node.offset_debug(), text.size());
+  return 1 + static_cast<std::uint32_t>(std::count(text.begin(), end, '\n'));
+}
+
+/// Points of the grid of a <flexcomp>, each of which becomes a body.
+double grid_points(pugi::xml_node flex) {
+  int counts[] = {1, 1, 1};
+  std::sscanf(flex.attribute("count").value(), "%d %d %d", counts, counts + 1, counts + 2);
+  double points = 1;
+  for (const int count : counts) {
+    points *= std::max(count, 1);
+  }
+  return points;
+}
+
+/// Counts what MuJoCo makes of the elements in <replicate>, level by level from the inside, and of
+/// <flexcomp>, until there is too much of it.
+class MadeElements : public pugi::xml_tree_walker {
+ public:
+  /// made: of files read before; copies: that are made of the whole file.
+  MadeElements(double made, double copies) : made_(made), of_file_(copies) {}
+
+  bool for_each(pugi::xml_node& node) override {
+    while (!open_.empty() && open_.back().depth >= depth()) {
+      open_.pop_back();
+    }
+    const std::string_view name = node.name();
+    const double copies = open_.empty() ? of_file_ : open_.back().copies;
+    made_ += copies;
+    if (name == "replicate") {
+      const int count = std::max(node.attribute("count").as_int(), 1);
+      open_.push_back({node, depth(), count * (1 + copies)});
+    } else if (name == "flexcomp") {
+      made_ += 2 * grid_points(node) * (1 + copies);
+    } else if (name == "include") {
+      included_[node.attribute("file").value()] = copies;
+    }
+    culprit_ = open_.empty() ? node : open_.front().node;
+    return made_ <= limits::kReplicatedElements;
+  }
+  double made() const { return made_; }
+  /// The copies that are made of each file that this one includes, by its name there.
+  const std::map<std::string, double>& included() const { return included_; }
+  /// Where there is too much: the outermost <replicate>, or the <flexcomp>.
+  pugi::xml_node culprit() const { return culprit_; }
+
+ private:
+  struct Open {
+    pugi::xml_node node;
+    int depth = 0;
+    double copies = 0;  ///< that are made of an element in it, at all levels
+  };
+  std::vector<Open> open_;
+  std::map<std::string, double> included_;
+  pugi::xml_node culprit_;
+  double made_ = 0;
+  double of_file_ = 0;
+};
+
 /// A name in a file of the model.
 struct Name {
   std::string written;
@@ -75,12 +138,19 @@ class NamedFiles {
  private:
   static fs::path folder_of(const std::string& file) { return fs::path(file).parent_path(); }
 
+  /// Where a file of the model may be that one of its files names.
+  std::vector<std::string> next_files(const std::string& written, const std::string& by) const {
+    return {(folder_of(path_) / written).lexically_normal().string(),
+            (folder_of(by) / written).lexically_normal().string()};
+  }
+
   Result<void> read(const std::string& file) {
     const auto bytes = policy_.files()->open(file, {});
     pugi::xml_document document;
     if (!bytes || !document.load_buffer((*bytes)->text().data(), (*bytes)->size())) {
       return {};
     }
+    TENON_CHECK(count_made(document, file, (*bytes)->text()));
     for (pugi::xml_node node = document.first_child(); node; node = next_in_text(node)) {
       for (const pugi::xml_attribute attribute : node.attributes()) {
         if (names_directory(attribute.name())) {
@@ -93,19 +163,39 @@ class NamedFiles {
     return {};
   }
 
+  Result<void> count_made(pugi::xml_document& document, const std::string& file,
+                          std::string_view text) {
+    MadeElements elements(made_, copies_[file]);
+    const bool within = document.traverse(elements);
+    made_ = elements.made();
+    for (const auto& [written, copies] : elements.included()) {
+      for (const std::string& included : next_files(written, file)) {
+        copies_[included] = copies;
+      }
+    }
+    if (within) {
+      return {};
+    }
+    return Error(ErrorCode::Limit, "the model's <replicate> and <flexcomp> make more than " +
+                                       std::to_string(limits::kReplicatedElements) +
+                                       " elements (kReplicatedElements)")
+        .in_file(file)
+        .at(line_of(elements.culprit(), text), 0)
+        .with_rule("mjcf.too-many-copies")
+        .with_fix("lower its `count`, or that of one in it");
+  }
+
   Result<void> take(pugi::xml_node node, const std::string& written, const std::string& file,
                     std::string_view text) {
-    const auto end = text.begin() + std::min<std::ptrdiff_t>(node.offset_debug(), text.size());
-    const Name name{written, file,
-                    1 + static_cast<std::uint32_t>(std::count(text.begin(), end, '\n'))};
+    const Name name{written, file, line_of(node, text)};
     names_.push_back(name);
     const std::string_view element = node.name();
     if (element != "include" && element != "model" && element != "attach") {
       return {};
     }
     TENON_CHECK(admit(name, ""));
-    for (const fs::path& folder : {folder_of(path_), folder_of(file)}) {
-      pending_.push_back((folder / written).lexically_normal().string());
+    for (std::string& next : next_files(written, file)) {
+      pending_.push_back(std::move(next));
     }
     return {};
   }
@@ -152,6 +242,8 @@ class NamedFiles {
   std::set<std::string> folders_{""};
   std::vector<Name> names_;
   std::size_t tried_ = 0;
+  std::map<std::string, double> copies_;  // that are made of a whole file
+  double made_ = 0;                       // elements that MuJoCo makes of others
 };
 
 }  // namespace

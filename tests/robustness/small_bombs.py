@@ -112,6 +112,13 @@ def star(count):
     return layer(prim("W", inside=text))
 
 
+def replicates(levels, count, inside='<body><geom size="0.01"/></body>'):
+    """A model in MuJoCo's format, of `count` to the power of `levels` times `inside`."""
+    for _ in range(levels):
+        inside = f'<replicate count="{count}" offset="0.1 0 0">\n{inside}</replicate>'
+    return f"<mujoco><worldbody>\n{inside}</worldbody></mujoco>\n"
+
+
 # What it is: its files, and what has to be said, where it cannot be answered whole.
 BOMBS = {
     "layers that name each other": (layers_of_each_other(30), "too many sublayers"),
@@ -136,18 +143,28 @@ BOMBS = {
     "variables that double": (doubling(60), "65536"),
 }
 # The same of runs, with the engine.
-RUNS = {"drives around one body": (star(2000), "joints are not listed", "jolt")}
+RUNS = {"drives around one body": (star(2000), "joints are not listed")}
+# The same of descriptions of robots, which become assets.
+FLEX = ('<body name="b"><flexcomp name="f" type="grid" count="30 30 30" spacing="1 1 1" dim="3"/>'
+        "</body>")
+MODELS = {
+    "replicates of replicates": (replicates(3, 100), "a.xml:2: error: the model's <replicate>"),
+    "replicates of an included file": ({
+        "a.xml": replicates(2, 60, '<include file="b.xml"/>'),
+        "b.xml": "<mujocoinclude><body><geom size='1'/></body><body/></mujocoinclude>"},
+        "kReplicatedElements"),
+    "many points": (replicates(0, 1, FLEX), "kReplicatedElements"),
+    "as many copies as may be": (replicates(3, 16), "4097 links"),
+}
 
 
 def end_of_patience():
     resource.setrlimit(resource.RLIMIT_CPU, (4 * SECONDS, 4 * SECONDS))
 
 
-def faults_of(files, said, engine=None):
-    words = ["sim", "a.usda", "--engine", engine, "--duration", "0.004"] if engine else [
-        "info", "a.usda"]
+def faults_of(words, ends, files, said):
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (files if isinstance(files, dict) else {"a.usda": files}).items():
+        for name, text in (files if isinstance(files, dict) else {words[1]: files}).items():
             pathlib.Path(folder, name).write_text(text, encoding="utf-8")
         with open(pathlib.Path(folder, "said"), "w+b") as log:
             process = subprocess.Popen([TENON, *words], cwd=folder, stdout=log,
@@ -158,7 +175,7 @@ def faults_of(files, said, engine=None):
             text = log.read().decode(errors="replace")
     if process.returncode == 4:
         return  # the engine is not here
-    if process.returncode not in (0, 1):
+    if process.returncode not in ends:
         yield f"ends with {process.returncode}: {text[-300:]}"
     if said not in text:
         yield f'does not say "{said}": {text[-300:]}'
@@ -171,11 +188,15 @@ def faults_of(files, said, engine=None):
 
 def main():
     count = 0
-    for name, bomb in {**BOMBS, **RUNS}.items():
-        for fault in faults_of(*bomb):
-            print(f"{name}: {fault}")
-            count += 1
-    print(f"{len(BOMBS) + len(RUNS)} small assets that mean much, {count} faults")
+    for words, ends, bombs in ((["info", "a.usda"], (0, 1), BOMBS),
+                               (["sim", "a.usda", "--engine", "jolt", "--duration", "0.004"],
+                                (0, 1), RUNS),
+                               (["convert", "a.xml", "out.usda"], (0, 2), MODELS)):
+        for name, bomb in bombs.items():
+            for fault in faults_of(words, ends, *bomb):
+                print(f"{name}: {fault}")
+                count += 1
+    print(f"{len({**BOMBS, **RUNS, **MODELS})} small assets that mean much, {count} faults")
     return 1 if count else 0
 
 

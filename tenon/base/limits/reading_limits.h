@@ -13,6 +13,7 @@ inline constexpr std::uint64_t kCheckedEntryBytes = 1u << 20;     ///< whose che
 inline constexpr std::size_t kPartsFolderLevels = 4;    ///< above the folder of a description
 inline constexpr std::size_t kPythonPackageLevels = 8;  ///< from it to a description's folder
 inline constexpr std::size_t kNamedFiles = 100'000;     ///< names that a model's files are tried by
+inline constexpr std::size_t kReplicatedElements = 10'000;   ///< made by <replicate>, <flexcomp>
 inline constexpr std::uint64_t kPackageXmlBytes = 1u << 20;  ///< of a ROS package's package.xml
 inline constexpr std::size_t kSdfModels = 10'000;  ///< of an SDF file, nested and included
 inline constexpr std::size_t kSdfNodes = 200'000;  ///< links, joints, frames, models in it
