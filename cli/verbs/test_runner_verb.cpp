@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/output.h"
@@ -16,6 +17,7 @@
 #include "tenon/answers/dump/list_op_json.h"
 #include "tenon/answers/dump/schema_json.h"
 #include "tenon/answers/dump/values_json.h"
+#include "tenon/formats/save_layer.h"
 #include "tenon/open_stage.h"
 
 namespace tenon::cli {
@@ -29,7 +31,8 @@ int answer(Report& report, const Result<std::string>& text) {
   if (!text) {
     return report.fail(text.error());
   }
-  print_data(*text + "\n");
+  print_data(*text);
+  print_data("\n");
   return report.finish(kOk);
 }
 
@@ -41,9 +44,10 @@ struct LayerOptions {
 Result<std::string> layer_text(const LayerOptions& options, Diagnostics& diagnostics) {
   TENON_TRY(const layer::LayerPtr layer,
             open_layer(options.file, options.files.open_options(), diagnostics));
+  TENON_CHECK(formats::check_repeated_arrays(*layer));
   std::ostringstream out;
   answers::write_layer_json(out, *layer);
-  return out.str();
+  return std::move(out).str();
 }
 
 Result<std::string> folded_list_ops(std::istream& in) {

@@ -21,6 +21,10 @@ Result<LayerFormat> layer_format_for(std::string_view path);
 /// ErrorCode::Unsupported where that fails.
 Result<std::string> encode_layer(const layer::Layer& layer, LayerFormat format);
 
+/// Limit where a text would have arrays, which a binary file holds once, in so many places that it
+/// is beyond limits::kRepeatedArrays. Decodes them.
+Result<void> check_repeated_arrays(const layer::Layer& layer);
+
 /// Writes the layer to `path` in the format that its ending names, in one step (the old file or the
 /// new one, whole).
 Result<void> save_layer(const layer::Layer& layer, const std::string& path);

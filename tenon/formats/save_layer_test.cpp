@@ -75,6 +75,30 @@ TEST(SaveLayer, RefusesTextThatCannotBeReadBack) {
   expect_no_text(layer);
 }
 
+// A crate holds equal arrays once; so many in so small a file are no text of a bounded size.
+TEST(SaveLayer, RefusesTextOfOneArrayInManyPlaces) {
+  const layer::Value array = std::vector<int>(16'384, 7);
+  const auto with_places = [&](std::size_t places) {
+    return from_crate([&](layer::Spec& prim, layer::Spec&) {
+      layer::Dictionary places_of_it;
+      for (std::size_t i = 0; i < places; ++i) {
+        places_of_it.items[std::to_string(i)] = array;
+      }
+      prim.set(fields::customData, places_of_it);
+    });
+  };
+  const Layer few = with_places(100);
+  EXPECT_TRUE(check_repeated_arrays(few));
+  EXPECT_TRUE(encode_layer(few, LayerFormat::Text));
+  const Layer many = with_places(2'200);
+  EXPECT_FALSE(check_repeated_arrays(many));
+  const auto text = encode_layer(many, LayerFormat::Text);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code(), ErrorCode::Limit);
+  EXPECT_EQ(text.error().diagnostic().rule, "layer.repeated-arrays");
+  EXPECT_TRUE(encode_layer(many, LayerFormat::Crate));
+}
+
 // Binary layers may have more levels of prims than text.
 TEST(SaveLayer, RefusesTextThatWouldBeNestedTooDeepToBeRead) {
   const auto with_levels = [](std::size_t levels) {

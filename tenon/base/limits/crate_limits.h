@@ -18,5 +18,7 @@ inline constexpr std::uint64_t kCrateTokens = 1u << 17;        ///< tokens of an
 inline constexpr std::uint64_t kCrateTokensPerByte = 2;        ///< more per byte of their table
 inline constexpr std::uint64_t kCrateArrays = 1u << 28;        ///< bytes of unpacked arrays
 inline constexpr std::uint64_t kCrateArraysPerByte = 64;       ///< the same, more per byte
+inline constexpr std::uint64_t kRepeatedArrays = 1u << 27;   ///< bytes of copies, where it is text
+inline constexpr std::uint64_t kRepeatedArraysPerByte = 40;  ///< the same, more per byte of one
 
 }  // namespace tenon::limits
