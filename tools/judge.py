@@ -50,15 +50,6 @@ class Judgement:
         self.engine, self.node = engine, node
 
 
-def mutants(name, program, start, more=()):
-    return Judgement(
-        name,
-        ["build/bench/bin/tenon_mutants", "--program", program, "--seeds", *SEEDS, "--seed", "15",
-         "--from", str(start), "--count", "50000", "--jobs", "{jobs}", "--findings",
-         f"build/judge/{name}", "--json", f"build/judge/{name}.json", *more],
-        "bench", ["tenon_mutants"])
-
-
 def judgements_of_engines():
     yield Judgement("closed_forms", ["{python}", "-B", "tests/closed_forms/closed_forms.py",
                                      "build/release/bin/tenon", "docs/closed-forms.md",
@@ -238,6 +229,14 @@ def composition():
                                       "--scenes", "500"], "bench", ["tenon_composition_dump"])
 
 
+def mutants():
+    """The next 25,000 each; all parts of a build add up (fuzz/mutants/parts.tsv)."""
+    for build in ("release", "sanitizers"):
+        yield Judgement(f"mutants_{build}", ["{python}", "-B", "tools/mutant_parts.py", "run",
+                                             build, "--jobs", "{jobs}"],
+                        "bench", ["tenon_mutants"])
+
+
 def judgements():
     """All of them, in the order in which they are run."""
     # README's two commands where nothing is installed; --only demo and --user-alone are shorter.
@@ -261,10 +260,9 @@ def judgements():
                                    "build/release/bin/tenon", "--recoveries", "2000"],
                     "release", ["tenon_cli", "tenon_worker"])
     yield Judgement("determinism", ["{python}", "-B", "tests/output/determinism.py", ".",
-                                    "build/release/bin/tenon"],
-                    "release", ["tenon_cli", "tenon_worker"])
-    yield mutants("mutants_release", "build/release/bin/tenon", 0)
-    yield mutants("mutants_sanitizers", "build/dev/bin/tenon", 50000, ["--sanitized"])
+                                    "build/release/bin/tenon", "--jobs", "{jobs}"],
+                    "release", ["tenon_cli", "tenon_worker", "tenon_page"])
+    yield from mutants()
     yield Judgement("labelled", ["ctest", "--preset", "dev", "-L", "judge", "-j", "{jobs}",
                                  "--no-tests=error"], "dev")
     yield Judgement("reference", ["{python}", "-B", "tools/make_reference.py"], "release")
@@ -418,8 +416,9 @@ def commit():
     def lines(*words):
         return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True,
                               check=False).stdout.strip()
-    # The table itself changes with each row.
-    others = lines("status", "--porcelain", "--untracked-files=no", "--", ":!CONFORMANCE.md")
+    # The tables themselves change with each row.
+    others = lines("status", "--porcelain", "--untracked-files=no", "--", ":!CONFORMANCE.md",
+                   ":!fuzz/mutants/parts.tsv")
     changed = "+changes" if others else ""
     return lines("rev-parse", "--short", "HEAD") + changed
 

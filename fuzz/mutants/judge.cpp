@@ -12,6 +12,8 @@
 #include <utility>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace tenon::fuzz {
 namespace {
@@ -28,6 +30,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMegabyte = 1u << 20;
 constexpr std::size_t kCompositionBytes = 512 * kMegabyte;
+/// Five bytes of text for each of limits::kRepeatedArrays.
+constexpr std::size_t kRepeatedText = 640 * kMegabyte;
 constexpr std::size_t kAddressSpace = 6144 * kMegabyte;
 constexpr std::size_t kReadOfMessages = 256u << 10;
 /// Composition under sanitizers, which are ten times slower, gets a tenth of limits::kComposeWork.
@@ -142,7 +146,9 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
       continue;
     }
     const bool known =
-        (name == ".tenon" && !command.output.empty()) ||
+        (name == ".tenon" && !command.output.empty()) || name == mutant.damaged ||
+        std::any_of(mutant.links.begin(), mutant.links.end(),
+                    [&](const NamedFile& link) { return link.name == name; }) ||
         std::any_of(mutant.files.begin(), mutant.files.end(), [&](const NamedFile& file) {
           return file.name == name || file.name.starts_with(name + "/");
         });
@@ -152,7 +158,7 @@ std::string left_behind(const Mutant& mutant, const Command& command, const std:
   }
   for (const NamedFile& file : mutant.files) {
     const std::string path = folder + "/" + file.name;
-    if (!command.edits && fs::file_size(path, error) != file.bytes.size()) {
+    if (!command.edits && mutant.other.empty() && fs::file_size(path, error) != file.bytes.size()) {
       return "left: the input " + file.name + " is not what it was";
     }
   }
@@ -209,6 +215,8 @@ std::size_t Subject::allowed_bytes(const Mutant& mutant) const {
       return std::max(by_size, kCompositionBytes);
     case Bound::Guarded:
       return by_size + guarded_bytes;
+    case Bound::Arrays:
+      return by_size + kRepeatedText;
   }
   return by_size;
 }
@@ -220,7 +228,59 @@ void write_files(const Mutant& mutant, const std::string& folder) {
     fs::create_directories(path.parent_path(), error);
     std::ofstream(path, std::ios::binary) << file.bytes;
   }
+  for (const NamedFile& link : mutant.links) {
+    std::error_code error;
+    fs::create_symlink(link.bytes, fs::path(folder) / link.name, error);
+  }
 }
+
+namespace {
+
+std::string whole_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// What comes before the run: a first command, and damage to the state that it saved.
+void prepare(const Subject& subject, const Mutant& mutant, const Command& command,
+             ProgramCall call) {
+  if (command.before.empty()) {
+    return;
+  }
+  call.words.assign(1, subject.program);
+  call.words.insert(call.words.end(), command.before.begin(), command.before.end());
+  run_program(call, subject.limits());
+  const std::string path = call.folder + "/" + mutant.damaged;
+  if (!mutant.damaged.empty() && fs::exists(path)) {
+    Dice dice(mutant.damage);
+    const std::string damaged = damaged_state(whole_file(path), dice);
+    std::ofstream(path, std::ios::binary) << damaged;
+  }
+}
+
+/// The run, and while it lasts a process that writes the asset over and over, where it is to.
+ProgramRun run_beside_writer(const ProgramCall& call, const ProgramLimits& limits,
+                             const Mutant& mutant) {
+  if (mutant.other.empty()) {
+    return run_program(call, limits);
+  }
+  const std::string path = call.folder + "/" + mutant.asset;
+  const pid_t writer = fork();
+  if (writer == 0) {
+    for (;;) {
+      for (const std::string& bytes : {mutant.other, mutant.files.back().bytes}) {
+        std::fstream(path, std::ios::binary | std::ios::in | std::ios::out) << bytes;
+        usleep(300);
+      }
+    }
+  }
+  const ProgramRun run = run_program(call, limits);
+  kill(writer, SIGKILL);
+  waitpid(writer, nullptr, 0);
+  return run;
+}
+
+}  // namespace
 
 Verdict run_and_judge(const Subject& subject, const Mutant& mutant, const Command& command,
                       const std::string& folder) {
@@ -238,9 +298,11 @@ Verdict run_and_judge(const Subject& subject, const Mutant& mutant, const Comman
        ++attempt) {
     std::error_code error;
     fs::remove_all(inside, error);
+    fs::remove_all(folder + "/state", error);  // of `tenon undo`
     fs::create_directories(inside, error);
     write_files(mutant, inside);
-    verdict.run = run_program(call, subject.limits());
+    prepare(subject, mutant, command, call);
+    verdict.run = run_beside_writer(call, subject.limits(), mutant);
   }
   const std::string errors = start_of(folder + "/stderr", kReadOfMessages);
   std::size_t allowed = subject.allowed_bytes(mutant);

@@ -122,11 +122,13 @@ Input input_of(const Options& options, const Seeds& seeds, std::uint64_t number)
 
 void write_command(const Command& command, const std::string& path) {
   std::ofstream file(path);
-  file << "tenon";
-  for (const std::string& word : command.words) {
-    file << " '" << word << "'";
+  for (const auto* words : {&command.before, &command.words}) {
+    file << (words->empty() ? "" : "tenon");
+    for (const std::string& word : *words) {
+      file << " '" << word << "'";
+    }
+    file << (words->empty() ? "" : "\n");
   }
-  file << "\n";
 }
 
 std::vector<std::string> environment_in(const std::string& folder) {
@@ -135,6 +137,7 @@ std::vector<std::string> environment_in(const std::string& folder) {
                                       "HOME=" + folder,
                                       "TMPDIR=" + folder,
                                       "XDG_CACHE_HOME=" + folder + "/cache",
+                                      "XDG_STATE_HOME=" + folder + "/state",
                                       "ASAN_OPTIONS=allocator_may_return_null=0",
                                       "UBSAN_OPTIONS=print_stacktrace=1"};
   if (const char* libraries = std::getenv("LD_LIBRARY_PATH")) {
@@ -164,6 +167,10 @@ void keep_finding(const Options& options, const Input& input, std::uint64_t numb
   std::error_code error;
   write_files(input.mutant, kept);
   write_command(input.command, kept + "/COMMAND");
+  if (!input.mutant.damaged.empty()) {
+    fs::copy_file(folder + "/case/" + input.mutant.damaged, kept + "/" + input.mutant.damaged,
+                  fs::copy_options::overwrite_existing, error);
+  }
   for (const char* name : {"stdout", "stderr"}) {
     fs::copy_file(folder + "/" + name, kept + "/" + name, fs::copy_options::overwrite_existing,
                   error);

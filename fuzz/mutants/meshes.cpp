@@ -101,6 +101,81 @@ void mend_png(std::string& png) {
   }
 }
 
+/// A JPEG up to where its pixels begin.
+std::string jpeg_head(Dice& dice) {
+  bytes::ByteWriter out;
+  const auto side = [&] {
+    return static_cast<std::uint16_t>(dice.one_in(3) ? dice.extreme() : 0x1000);
+  };
+  const auto segment = [&](const char* marker, const std::string& bytes) {
+    const std::size_t size = dice.one_in(12) ? dice.extreme() : bytes.size() + 2;
+    out.write_text(std::string_view(marker, 2));
+    out.write(static_cast<std::uint8_t>(size >> 8));
+    out.write(static_cast<std::uint8_t>(size));
+    out.write_text(bytes);
+  };
+  out.write_text("\xff\xd8");
+  segment("\xff\xe0", std::string("JFIF\0\1\1\0\0\1\0\1\0\0", 14));
+  for (std::size_t left = dice.one_in(4) ? dice.below(2000) : dice.below(3); left > 0; --left) {
+    segment(dice.one_in(2) ? "\xff\xe1" : "\xff\xfe", std::string(dice.below(60), 'E'));
+  }
+  bytes::ByteWriter frame;
+  frame.write(std::uint8_t{8});
+  frame.write(side());
+  frame.write(side());
+  frame.write_text(std::string("\3\1\x11\0\2\x11\0\3\x11\0", 10));
+  segment(dice.one_in(3) ? "\xff\xc2" : "\xff\xc0", frame.bytes());
+  segment("\xff\xda", std::string("\3\1\0\2\0\3\0\0?\0", 10));
+  out.write_text("\xff\xd9");
+  return out.take();
+}
+
+constexpr const char* kTextured = R"(#usda 1.0
+(
+    defaultPrim = "A"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "A"
+{
+    def Mesh "Box" (
+        prepend apiSchemas = ["MaterialBindingAPI", "PhysicsRigidBodyAPI", "PhysicsCollisionAPI"]
+    )
+    {
+        int[] faceVertexCounts = [3, 3, 3, 3]
+        int[] faceVertexIndices = [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        texCoord2f[] primvars:st = [(0, 0), (1, 0), (0, 1), (1, 1)] (
+            interpolation = "vertex"
+        )
+        rel material:binding = </A/Look>
+    }
+    def Material "Look"
+    {
+        token outputs:surface.connect = </A/Look/Surface.outputs:surface>
+        def Shader "Surface"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor.connect = </A/Look/Image.outputs:rgb>
+            token outputs:surface
+        }
+        def Shader "Image"
+        {
+            uniform token info:id = "UsdUVTexture"
+            asset inputs:file = @./IMAGE@
+            float2 inputs:st.connect = </A/Look/Reader.outputs:result>
+            float3 outputs:rgb
+        }
+        def Shader "Reader"
+        {
+            uniform token info:id = "UsdPrimvarReader_float2"
+            string inputs:varname = "st"
+            float2 outputs:result
+        }
+    }
+}
+)";
+
 }  // namespace
 
 Mutant make_stl(const Seeds& seeds, Dice& dice) {
@@ -211,6 +286,26 @@ Mutant make_image(const Seeds& seeds, Dice& dice) {
                                             "<worldbody><geom size=\"1\" material=\"m\"/>"
                                             "</worldbody></mujoco>\n"});
   mutant.bound = Bound::Guarded;
+  return mutant;
+}
+
+Mutant make_texture(const Seeds& seeds, Dice& dice) {
+  const bool jpeg = dice.one_in(2);
+  std::string bytes = jpeg ? jpeg_head(dice) : seeds.pick(Kind::Png, dice).bytes;
+  for (std::size_t left = dice.below(4); left > 0; --left) {
+    mutate_bytes(bytes, dice);
+  }
+  if (!jpeg && dice.one_in(2)) {
+    mend_png(bytes);
+  }
+  Mutant mutant;
+  const std::string name = dice.one_in(2) == jpeg ? "mutant.jpg" : "mutant.png";
+  mutant.files.push_back({name, std::move(bytes)});
+  mutant.asset = "model.usda";
+  std::string text = kTextured;
+  text.replace(text.find("IMAGE"), 5, name);
+  mutant.files.push_back({mutant.asset, std::move(text)});
+  mutant.prim = "/A";
   return mutant;
 }
 

@@ -85,6 +85,7 @@ Mutant make_robot(const Seeds& seeds, Kind kind, Dice& dice) {
 
 Mutant make_urdf(const Seeds& seeds, Dice& dice) { return make_robot(seeds, Kind::Urdf, dice); }
 Mutant make_mjcf(const Seeds& seeds, Dice& dice) { return make_robot(seeds, Kind::Mjcf, dice); }
+Mutant make_sdf(const Seeds& seeds, Dice& dice) { return make_robot(seeds, Kind::Sdf, dice); }
 Mutant make_arcs(const Seeds&, Dice& dice) { return make_arc_graph(dice); }
 
 /// How many of a hundred inputs are of each format.
@@ -94,19 +95,26 @@ struct Format {
   Mutant (*make)(const Seeds& seeds, Dice& dice);
 };
 constexpr Format kFormats[] = {
-    {"text layers", 18, make_text},
-    {"binary layers", 16, make_crate},
-    {"packages", 10, make_package},
-    {"URDF", 9, make_urdf},
-    {"MJCF", 10, make_mjcf},
-    {"STL", 5, make_stl},
-    {"OBJ", 5, make_obj},
-    {"Collada", 6, make_dae},
-    {"glTF", 4, make_gltf},
+    {"text layers", 15, make_text},
+    {"binary layers", 13, make_crate},
+    {"packages", 9, make_package},
+    {"URDF", 7, make_urdf},
+    {"MJCF", 8, make_mjcf},
+    {"SDF", 4, make_sdf},
+    {"STL", 3, make_stl},
+    {"OBJ", 3, make_obj},
+    {"Collada", 5, make_dae},
+    {"glTF", 3, make_gltf},
     {"GLB", 3, make_glb},
     {"images", 1, make_image},
-    {"splines and clips", 6, make_motion},
-    {"graphs of arcs", 7, make_arcs},
+    {"textures", 2, make_texture},
+    {"splines and clips", 4, make_motion},
+    {"graphs of arcs", 5, make_arcs},
+    {"files beside", 7, make_beside},
+    {"crates of no writer", 3, make_odd_crate},
+    {"odd names", 2, make_odd_name},
+    {"unreadable files", 2, make_unreadable},
+    {"unsteady files", 1, make_unsteady},
 };
 
 const Format& format_at(std::size_t number) {
@@ -146,8 +154,8 @@ Mutant mutant_of(const Seeds& seeds, const Seed& seed, std::string bytes) {
     mutant.files.push_back({file.path.substr(folder), file.bytes});
   }
   static constexpr std::array<std::string_view, kKinds> kNames = {
-      "mutant.usda", "mutant.usd", "mutant.usdz", "mutant.urdf", "mutant.xml", "mutant.stl",
-      "mutant.obj",  "mutant.dae", "mutant.gltf", "mutant.png",  "mutant"};
+      "mutant.usda", "mutant.usd", "mutant.usdz", "mutant.urdf", "mutant.xml", "mutant.sdf",
+      "mutant.stl",  "mutant.obj", "mutant.dae",  "mutant.gltf", "mutant.png", "mutant"};
   mutant.asset = kNames[static_cast<std::size_t>(seed.kind)];
   mutant.files.push_back({mutant.asset, std::move(bytes)});
   return mutant;

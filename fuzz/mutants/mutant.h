@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,10 @@
 /// Damaged inputs for the whole program: what tenon_mutants runs it on.
 namespace tenon::fuzz {
 
-/// Which memory a run may take: so much for the size of the files, what compositions may, or what
-/// docs/limits.md says of readers in a process of their own.
-enum class Bound : unsigned char { File, Composition, Guarded };
+/// Which memory a run may take: so much for the size of the files, what compositions may, what
+/// docs/limits.md says of readers in a process of their own, or of arrays that are repeated in
+/// text.
+enum class Bound : unsigned char { File, Composition, Guarded, Arrays };
 
 struct NamedFile {
   std::string name;  ///< relative, with '/' between folders
@@ -28,6 +30,13 @@ struct Mutant {
   std::string asset;  ///< name of the file for the verb
   std::string prim = "/";
   Bound bound = Bound::File;
+  std::string words;    ///< of the command that reads it, as in verbs.cpp; "": of any that fits
+  bool edits = false;   ///< that command writes into the asset's own files
+  std::string before;   ///< words of a command that makes the file `damaged` first
+  std::string damaged;  ///< a saved state, which then is damaged by these dice
+  std::uint64_t damage = 0;
+  std::vector<NamedFile> links;  ///< symbolic links; `bytes` is where each leads
+  std::string other;  ///< what the asset becomes, and back, while it is read; "": it stays
 
   std::size_t size() const;
 };
@@ -51,5 +60,14 @@ Mutant make_dae(const Seeds& seeds, Dice& dice);
 Mutant make_gltf(const Seeds& seeds, Dice& dice);
 Mutant make_glb(const Seeds& seeds, Dice& dice);
 Mutant make_image(const Seeds& seeds, Dice& dice);
+Mutant make_texture(const Seeds& seeds, Dice& dice);
+Mutant make_beside(const Seeds& seeds, Dice& dice);
+Mutant make_odd_crate(const Seeds& seeds, Dice& dice);
+Mutant make_odd_name(const Seeds& seeds, Dice& dice);
+Mutant make_unreadable(const Seeds& seeds, Dice& dice);
+Mutant make_unsteady(const Seeds& seeds, Dice& dice);
+
+/// A state of `tenon sim --state-out` with another body, mostly under a digest that fits.
+std::string damaged_state(std::string state, Dice& dice);
 
 }  // namespace tenon::fuzz

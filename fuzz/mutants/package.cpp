@@ -44,7 +44,7 @@ void mutate_claims(ZipClaims& claims, Dice& dice) {
 
 void mutate_zip(ZipParts& zip, Dice& dice) {
   ZipPart& part = zip.parts[dice.below(zip.parts.size())];
-  switch (dice.below(9)) {
+  switch (dice.below(11)) {
     case 0:
       mutate_claims(part.local, dice);
       break;
@@ -71,6 +71,12 @@ void mutate_zip(ZipParts& zip, Dice& dice) {
           static_cast<std::uint32_t>(dice.extreme());
       break;
     case 7:
+      part.wide = dice.one_in(3) ? dice.extreme() : part.bytes.size();
+      break;
+    case 8:
+      zip.wide_offset = dice.one_in(3) ? dice.extreme() : dice.below(2000);
+      break;
+    case 9:
       zip.comment = std::string(dice.below(70'000) % 65'536, 'P');
       break;
     default: {  // many entries, some of one place
@@ -104,6 +110,23 @@ std::string a_layer(const Seeds& seeds, bool damaged, std::string& name, Dice& d
   return damaged ? mutate_text(bytes, {Grammar::Usd, "", kLargestMutant}, dice) : bytes;
 }
 
+constexpr const char* kUsesInner = "#usda 1.0\nover \"A\" (references = @inner.usdz@)\n{\n}\n";
+
+/// A package, at times within packages, each of which names the one that it holds.
+std::string nested_packages(const Seeds& seeds, Dice& dice) {
+  ZipParts inner;
+  inner.parts.resize(1);
+  inner.parts[0].bytes = a_layer(seeds, false, inner.parts[0].name, dice);
+  std::string bytes = put_together(inner);
+  for (std::size_t left = dice.one_in(3) ? dice.below(60) : 0; left > 0; --left) {
+    ZipParts outer;
+    outer.parts.push_back({"root.usda", kUsesInner, {}, {}, {}, 0, {}});
+    outer.parts.push_back({"inner.usdz", std::move(bytes), {}, {}, {}, 0, {}});
+    bytes = put_together(outer);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 Mutant make_package(const Seeds& seeds, Dice& dice) {
@@ -112,15 +135,11 @@ Mutant make_package(const Seeds& seeds, Dice& dice) {
   zip.parts.resize(1);
   zip.parts[0].bytes = a_layer(seeds, what < 2, zip.parts[0].name, dice);
   if (dice.one_in(2) && seeds.has(Kind::Png)) {
-    zip.parts.push_back({"textures/a.png", seeds.pick(Kind::Png, dice).bytes, {}, {}, {}, 0});
+    zip.parts.push_back({"textures/a.png", seeds.pick(Kind::Png, dice).bytes, {}, {}, {}, 0, {}});
   }
   if (dice.one_in(3)) {
-    ZipParts inner;
-    inner.parts.resize(1);
-    inner.parts[0].bytes = a_layer(seeds, false, inner.parts[0].name, dice);
-    zip.parts.push_back({"inner.usdz", put_together(inner), {}, {}, {}, 0});
-    zip.parts.push_back(
-        {"more.usda", "#usda 1.0\nover \"A\" (references = @inner.usdz@)\n{\n}\n", {}, {}, {}, 0});
+    zip.parts.push_back({"inner.usdz", nested_packages(seeds, dice), {}, {}, {}, 0, {}});
+    zip.parts.push_back({"more.usda", kUsesInner, {}, {}, {}, 0, {}});
   }
   for (std::size_t left = what > 2 ? 1 + dice.below(3) : 0; left > 0; --left) {
     mutate_zip(zip, dice);

@@ -39,6 +39,7 @@ Kind kind_of(std::string_view path, std::string_view bytes) {
       {path.ends_with(".gltf"), Kind::Gltf},
       {in_head("<COLLADA"), Kind::Dae},
       {in_head("<mujoco"), Kind::Mjcf},
+      {path.ends_with(".sdf") && in_head("<sdf"), Kind::Sdf},
       {in_head("<robot"), Kind::Urdf},
   };
   for (const auto& [found, kind] : tests) {

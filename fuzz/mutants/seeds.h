@@ -18,6 +18,7 @@ enum class Kind : unsigned char {
   Package,
   Urdf,
   Mjcf,
+  Sdf,
   Stl,
   Obj,
   Dae,
@@ -25,7 +26,7 @@ enum class Kind : unsigned char {
   Png,
   Other
 };
-inline constexpr std::size_t kKinds = 11;
+inline constexpr std::size_t kKinds = 12;
 
 struct Seed {
   std::string path;  ///< relative to the folder it was found in

@@ -26,7 +26,8 @@ struct Command {
   std::vector<std::string> words;  ///< behind the program's name
   Leaves leaves = Leaves::Text;
   std::string output;
-  bool edits = false;  ///< writes into the asset's own files
+  bool edits = false;               ///< writes into the asset's own files
+  std::vector<std::string> before;  ///< words of a command that is run first; mostly none
 };
 
 Command command_for(const Mutant& mutant, Dice& dice);

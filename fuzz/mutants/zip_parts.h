@@ -27,6 +27,7 @@ struct ZipPart {
   ZipClaims central;
   std::optional<std::uint32_t> offset;  ///< where the central header says that the local one lies
   std::size_t extra = 0;                ///< bytes of padding beyond what aligns the data
+  std::optional<std::uint64_t> wide;    ///< both headers give the sizes in 64 bits, these
 };
 
 struct ZipParts {
@@ -35,10 +36,11 @@ struct ZipParts {
   std::optional<std::uint32_t> directory_offset;
   std::optional<std::uint32_t> directory_size;
   std::string comment;
+  std::optional<std::uint64_t> wide_offset;  ///< the directory's place, in a record of 64 bits
 };
 
 /// A zip file of stored entries at multiples of 64 bytes, with checksums that are right unless
-/// something else is claimed.
+/// something else is claimed; records of 64 bits where a part or the file has a `wide` one.
 std::string put_together(const ZipParts& zip);
 
 std::uint32_t crc32(std::string_view bytes);
