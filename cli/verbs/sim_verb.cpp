@@ -90,7 +90,7 @@ void print_not_mapped(const Json& items) {
   }
 }
 
-std::string shown(const Json& value) {
+std::string setting_text(const Json& value) {
   if (value.is_string()) {
     return value.get<std::string>();
   }
@@ -107,7 +107,7 @@ void print_settings(const Json& settings) {
   print("engine settings\n");
   for (const auto& [name, value] : settings.items()) {
     if (!value.is_object()) {
-      print("  %-28s %s\n", name.c_str(), shown(value).c_str());
+      print("  %-28s %s\n", name.c_str(), setting_text(value).c_str());
       continue;
     }
     for (const auto& [prim, on] : value.items()) {

@@ -111,7 +111,7 @@ std::string table_text(const Json& pairs, const BodyNames& names) {
 }
 
 /// "thumb_joint 0.4": the coordinates as they are in JSON.
-std::string posture_text(const Json& posture) {
+std::string deepest_posture_text(const Json& posture) {
   std::string text = posture["number"].is_null()
                          ? "the start"
                          : "posture " + std::to_string(posture["number"].get<std::size_t>());
@@ -131,8 +131,8 @@ std::string details_text(const Json& pairs, const BodyNames& names) {
     if (!pair["posture"].is_null()) {
       text += names(pair["bodyA"]) + " and " + names(pair["bodyB"]) + " are deepest with " +
               pair["colliderA"].get<std::string>() + " and " +
-              pair["colliderB"].get<std::string>() + " in " + posture_text(pair["posture"]) +
-              " (rad, m)\n";
+              pair["colliderB"].get<std::string>() + " in " +
+              deepest_posture_text(pair["posture"]) + " (rad, m)\n";
     }
     for (const Json& filter : pair["filters"]) {
       text += names(pair["bodyA"]) + " and " + names(pair["bodyB"]) + ": " +

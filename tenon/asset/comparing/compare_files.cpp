@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using answers::Json;
 using Differences = std::vector<FileDifference>;
 
-struct SidePair {
+struct ComparedSides {
   std::string before;
   std::string after;
 };
@@ -52,7 +52,7 @@ Result<stage::Stage> open_side(const std::string& path, const CompareOptions& op
   return stage::Stage::open(empty_layer(), nullptr, no_layers);
 }
 
-Result<void> compare_layers(const SidePair& sides, const CompareOptions& options,
+Result<void> compare_layers(const ComparedSides& sides, const CompareOptions& options,
                             Diagnostics& diagnostics, Differences& found) {
   TENON_TRY(const layer::LayerPtr before, read_side(sides.before, options, diagnostics));
   TENON_TRY(const layer::LayerPtr after, read_side(sides.after, options, diagnostics));
@@ -62,7 +62,7 @@ Result<void> compare_layers(const SidePair& sides, const CompareOptions& options
   return {};
 }
 
-Result<void> compare_stages(const SidePair& sides, const CompareOptions& options,
+Result<void> compare_stages(const ComparedSides& sides, const CompareOptions& options,
                             Diagnostics& diagnostics, Differences& found) {
   TENON_TRY(const stage::Stage before, open_side(sides.before, options, diagnostics));
   TENON_TRY(const stage::Stage after, open_side(sides.after, options, diagnostics));
@@ -168,7 +168,7 @@ Result<void> compare_file(const std::string& name, const std::string& before,
   return {};
 }
 
-Result<void> compare_packages(const SidePair& sides, const CompareOptions& options,
+Result<void> compare_packages(const ComparedSides& sides, const CompareOptions& options,
                               Diagnostics& diagnostics, Differences& found) {
   TENON_TRY(const auto before, files_of(sides.before, options));
   TENON_TRY(const auto after, files_of(sides.after, options));
@@ -193,14 +193,14 @@ Result<void> compare_packages(const SidePair& sides, const CompareOptions& optio
   return {};
 }
 
-bool are_packages(const SidePair& sides, const CompareOptions& options) {
+bool are_packages(const ComparedSides& sides, const CompareOptions& options) {
   return (is_package(sides.before, options) || sides.before == kNoFile) &&
          (is_package(sides.after, options) || sides.after == kNoFile) &&
          (is_package(sides.before, options) || is_package(sides.after, options));
 }
 
 /// The names of the compared files, as reported, and their differences.
-Result<std::string> compare(const SidePair& sides, const CompareOptions& options,
+Result<std::string> compare(const ComparedSides& sides, const CompareOptions& options,
                             Diagnostics& diagnostics, Differences& found) {
   if (options.mode != CompareMode::Files) {
     TENON_CHECK(compare_stages(sides, options, diagnostics, found));

@@ -58,7 +58,7 @@ std::string named_few(const std::vector<std::string>& words) {
                                : text;
 }
 
-/// Edits for PhysX alone do not go into a model for MuJoCo, which is reported.
+/// TextEdits for PhysX alone do not go into a model for MuJoCo, which is reported.
 void leave_out_physx(std::vector<std::string>& changed, Diagnostics& diagnostics) {
   std::vector<std::string> left;
   std::erase_if(changed, [&](const std::string& word) {
@@ -88,18 +88,18 @@ bool goes_along(const std::string& word, bool has_bindings) {
           std::find(std::begin(kFriction), std::end(kFriction), word) != std::end(kFriction));
 }
 
-/// Edits of single properties, and words that cannot be told apart so.
-struct Edits {
+/// TextEdits of single properties, and words that cannot be told apart so.
+struct TextEdits {
   std::vector<PropertyEdit> single;
   std::vector<std::string> others;
 };
 
-Edits edits_of(const std::vector<std::string>& changed, const std::vector<std::string>& parts,
-               const convert::SealParts& now) {
+TextEdits edits_of(const std::vector<std::string>& changed, const std::vector<std::string>& parts,
+                   const convert::SealParts& now) {
   const bool has_bindings =
       std::any_of(changed.begin(), changed.end(),
                   [](const std::string& word) { return word.starts_with("material:binding"); });
-  Edits edits;
+  TextEdits edits;
   for (const std::string& word : changed) {
     if (goes_along(word, has_bindings)) {
       continue;
@@ -156,7 +156,7 @@ std::optional<std::string> with_edits(const std::string& text,
                          .attribute(convert::kSourceParts)
                          .get_as<layer::Array<std::string>>()
                          .value_or(layer::Array<std::string>());
-  const Edits edits = edits_of(changed, {parts.begin(), parts.end()}, now);
+  const TextEdits edits = edits_of(changed, {parts.begin(), parts.end()}, now);
   if (!edits.others.empty() || edits.single.empty()) {
     report_written_anew(diagnostics, "the asset says something else than its source of " +
                                          named_few(edits.others.empty() ? changed : edits.others));

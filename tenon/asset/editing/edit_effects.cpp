@@ -24,14 +24,14 @@
 namespace tenon {
 namespace {
 
-using Differences = std::vector<scene::SceneDifference>;
+using SceneDifferences = std::vector<scene::SceneDifference>;
 
 constexpr std::string_view kBetween = " and ";  // the two paths of a pair
 
 /// Lists of unread properties do not affect motion.
-Differences differences_between(const scene::PhysicsScene& before,
-                                const scene::PhysicsScene& after) {
-  Differences found = scene::scene_differences(before, after);
+SceneDifferences differences_between(const scene::PhysicsScene& before,
+                                     const scene::PhysicsScene& after) {
+  SceneDifferences found = scene::scene_differences(before, after);
   std::erase_if(found, [](const scene::SceneDifference& one) { return one.object == "not read"; });
   return found;
 }
@@ -236,7 +236,8 @@ std::optional<EditEffects::Views> EditEffects::look_without(const Wishes& left_o
 }
 
 /// The wishes of a round that the differences are due to.
-std::set<std::size_t> EditEffects::causes(const Wishes& round, const Differences& found) const {
+std::set<std::size_t> EditEffects::causes(const Wishes& round,
+                                          const SceneDifferences& found) const {
   std::map<Path, std::size_t> wish_at;  // no two are about one prim
   for (const std::size_t wish : round) {
     for (const Path prim : wishes_[wish].prims) {
@@ -270,7 +271,7 @@ void EditEffects::judge_round(const Wishes& round, bool alone) {
   }
   const Views& without = alone ? before_ : *made;
   for (std::size_t v = 0; v < after_.size(); ++v) {
-    const Differences found =
+    const SceneDifferences found =
         alone ? effects_[v].differences : differences_between(without[v].scene, after_[v].scene);
     const bool one_for_all = round.size() == 1 && !found.empty();
     for (const std::size_t i :

@@ -140,7 +140,7 @@ std::optional<std::string> hull_text(const MeshElement& mesh) {
 }
 
 /// Plain letters of a name, so that it may be a file's.
-std::string file_name(const std::string& name) {
+std::string file_stem(const std::string& name) {
   std::string plain;
   for (const char c : name) {
     const bool ok = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -172,9 +172,9 @@ std::string with_mesh_files(const std::string& text, const std::string& folder,
       out += text.substr(begin, end - begin);
       continue;
     }
-    std::string place = folder + "/" + file_name(mesh.name) + ".obj";
+    std::string place = folder + "/" + file_stem(mesh.name) + ".obj";
     for (int i = 2; files.contains(place); ++i) {
-      place = folder + "/" + file_name(mesh.name) + "_" + std::to_string(i) + ".obj";
+      place = folder + "/" + file_stem(mesh.name) + "_" + std::to_string(i) + ".obj";
     }
     const auto [known_at, is_new] = known.emplace(*contents, place);
     if (is_new) {

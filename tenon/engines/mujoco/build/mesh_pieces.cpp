@@ -143,7 +143,7 @@ bool is_convex_polygon(const scene::TriangleMesh& mesh, const Plane& plane) {
   return std::fabs(covered - hull) < 1e-4 * hull;
 }
 
-bool is_closed(const scene::TriangleMesh& mesh) {
+bool every_edge_joins_two(const scene::TriangleMesh& mesh) {
   std::vector<std::pair<int, int>> edges;
   for (const Vec3i& t : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -162,7 +162,8 @@ bool is_closed(const scene::TriangleMesh& mesh) {
 
 // Every point is behind every triangle (either winding); only called for closed meshes.
 bool is_convex(const scene::TriangleMesh& mesh, double size) {
-  if (mesh.triangles.size() * mesh.points.size() > limits::kConvexityChecks || !is_closed(mesh)) {
+  if (mesh.triangles.size() * mesh.points.size() > limits::kConvexityChecks ||
+      !every_edge_joins_two(mesh)) {
     return false;
   }
   int side = 0;
