@@ -14,6 +14,12 @@ log=$folder/build.log
 mkdir -p "$folder"
 : >"$log"
 
+# Its units are large: no more compilers than the memory has room for, 2.2 GB each.
+if [ "$preset" = quick ]; then
+  room=$(awk '/^MemAvailable:/ { print int($2 / 2200000) }' /proc/meminfo)
+  [ "$room" -ge "$jobs" ] || jobs=$((room > 1 ? room : 1))
+fi
+
 fail() {
   [ -t 2 ] && printf '\r\033[K' >&2
   cat "$log" >&2
