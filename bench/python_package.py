@@ -92,27 +92,19 @@ from tenon_usd.gym import AssetVectorEnv
 envs = AssetVectorEnv({path!r}, {envs}, frame_time=0.02, episode_time=1e9, threads=1,
                       physics="physics")
 """
-# The same model, as Gymnasium has it: one MuJoCo for each environment, in one process.
-GYMNASIUM_ENVS = """
-import os, tempfile
-os.environ["MUJOCO_GL"] = "disable"
-import tenon_usd
+# A robot of MJCF `model` for Gymnasium: `skip` steps a call, `fps` pictures a second.
+HAND_OF_GYMNASIUM = """
 from gymnasium import spaces
 from gymnasium.envs.mujoco import MujocoEnv
 from gymnasium.vector import SyncVectorEnv
 
-folder = tempfile.TemporaryDirectory()
-world = tenon_usd.World({path!r}, physics="physics")
-world.to_mjcf(os.path.join(folder.name, "hand.xml"))
-skip = max(1, round(0.02 / world.time_step))
-fps = round(1 / (skip * world.time_step))
 
 class Hand(MujocoEnv):
-    metadata = {{"render_modes": ["human", "rgb_array", "depth_array", "rgbd_tuple"],
-                "render_fps": fps}}
+    metadata = {"render_modes": ["human", "rgb_array", "depth_array", "rgbd_tuple"],
+                "render_fps": fps}
 
     def __init__(self):
-        super().__init__(os.path.join(folder.name, "hand.xml"), skip, None)
+        super().__init__(model, skip, None)
         self.observation_space = spaces.Box(-np.inf, np.inf, self.observe().shape, np.float64)
 
     def observe(self):
@@ -120,12 +112,25 @@ class Hand(MujocoEnv):
 
     def step(self, action):
         self.do_simulation(action, self.frame_skip)
-        return self.observe(), 0.0, False, False, {{}}
+        return self.observe(), 0.0, False, False, {}
 
     def reset_model(self):
         self.set_state(self.init_qpos, self.init_qvel)
         return self.observe()
 
+"""
+# The same model, as Gymnasium has it: one MuJoCo for each environment, in one process.
+GYMNASIUM_ENVS = """
+import os, tempfile
+os.environ["MUJOCO_GL"] = "disable"
+import tenon_usd
+folder = tempfile.TemporaryDirectory()
+world = tenon_usd.World({path!r}, physics="physics")
+world.to_mjcf(os.path.join(folder.name, "hand.xml"))
+skip = max(1, round(0.02 / world.time_step))
+fps = round(1 / (skip * world.time_step))
+model = os.path.join(folder.name, "hand.xml")
+{hand}
 envs = SyncVectorEnv([Hand] * {envs})
 """
 
@@ -223,8 +228,9 @@ def stepping_rows(envs, steps, rounds):
 def learning_row(envs, frames, rounds):
     rates = []
     for _ in range(rounds):
-        rates.append([run(FRAMES.format(envs_of=code.format(path=HAND, envs=envs), envs=envs,
-                                        frames=frames)) for code in (OWN_ENVS, GYMNASIUM_ENVS)])
+        made = [code.format(path=HAND, envs=envs, hand=HAND_OF_GYMNASIUM)
+                for code in (OWN_ENVS, GYMNASIUM_ENVS)]
+        rates.append([run(FRAMES.format(envs_of=text, envs=envs, frames=frames)) for text in made])
     own, other = (statistics.median(side) for side in zip(*rates))
     name = f"{envs} environments, frames of 0.02 s : Gymnasium's MuJoCo"
     print(f"{name:52} {own / 1e3:10.1f} {other / 1e3:10.1f} {'k frames/cpu s':12} "

@@ -79,29 +79,8 @@ envs = AssetVectorEnv({hand!r}, {count}, frame_time={frame!r}, episode_time=1e9,
 GYMNASIUM = """
 import os
 os.environ["MUJOCO_GL"] = "disable"
-from gymnasium import spaces
-from gymnasium.envs.mujoco import MujocoEnv
-from gymnasium.vector import SyncVectorEnv
-
-class Hand(MujocoEnv):
-    metadata = {{"render_modes": ["human", "rgb_array", "depth_array", "rgbd_tuple"],
-                "render_fps": {fps}}}
-
-    def __init__(self):
-        super().__init__({model!r}, {each}, None)
-        self.observation_space = spaces.Box(-np.inf, np.inf, self.observe().shape, np.float64)
-
-    def observe(self):
-        return np.concatenate([self.data.qpos, self.data.qvel])
-
-    def step(self, action):
-        self.do_simulation(action, self.frame_skip)
-        return self.observe(), 0.0, False, False, {{}}
-
-    def reset_model(self):
-        self.set_state(self.init_qpos, self.init_qvel)
-        return self.observe()
-
+model, skip, fps = {model!r}, {each}, {fps}
+{gym_hand}
 envs = SyncVectorEnv([Hand] * {count})
 """
 MODEL = """
@@ -145,7 +124,9 @@ def made_of(kind, values):
         return WORLD.format(engine=kind, **values)
     if kind == "rollout":
         return ROLLOUT.format(**values)
-    return FRAMES.format(envs_of=(OWN_ENVS if kind == "envs" else GYMNASIUM).format(**values))
+    text = OWN_ENVS if kind == "envs" else GYMNASIUM
+    return FRAMES.format(
+        envs_of=text.format(**values, gym_hand=python_package.HAND_OF_GYMNASIUM))
 
 
 def measured(kind, values, steps):

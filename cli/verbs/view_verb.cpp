@@ -133,6 +133,7 @@ Result<live::SessionOptions> session_options(const ViewArguments& arguments, Rep
   options.version = TENON_VERSION;
   options.watch = arguments.watch;
   options.identify.logs = arguments.logs;
+  options.identify.commands = arguments.commands;
   options.identify.run = [commands = arguments.commands](const live::IdentifyWish& wish,
                                                          live::Work& work) {
     return ask_identify(wish, commands, work);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Before a layer becomes text, arrays that still lie in a file are decoded, so that nothing is
-// written without them, and what of them would stand in it several times is counted. The text of a
+// written without them, and what of them would be in it several times is counted. The text of a
 // layer that came from a binary file is read back: not all that such files hold has a text.
 #include "tenon/formats/save_layer.h"
 

@@ -37,6 +37,7 @@ constexpr std::array kWriteFields{
     Field{"dryRun", kFlag, false, "tell the difference, write nothing"}};
 
 constexpr std::array kLogsFields{list("logs", kEachText, "files"),
+                                 Field{"commands", kText, false, "the table that they lack"},
                                  Field{"layer", kText, true, "the file that is written"},
                                  Field{"whyNot", kText, false, "nothing can be identified"}};
 constexpr Shape kLogs{"", kLogsFields};
@@ -69,7 +70,7 @@ constexpr std::array kIdentifiedFields{
     Field{"ok", kFlag},
     may_miss(object("check", kCheck, true)),
     may_miss(rows("parameters", kParameter)),
-    may_miss(rows("heldOut", kLeft, "root mean squares of what is left")),
+    may_miss(rows("heldOut", kLeft, "root mean squares of residuals")),
     may_miss(rows("engines", kReplay)),
     may_miss(rows("scores", kParameter, "of a self-test")),
     may_miss(list("problems", kEachText, "why the layer would not be written"))};

@@ -108,7 +108,7 @@ Result<Json> answer_of(const IdentifyEnd& end, const Work& work, FoundLayer& fou
   if (!json.is_object() || json.contains("error")) {
     const std::string said = json.is_object() ? json.value("error", "") : end.complaint;
     return Error(end.code == kMissing ? ErrorCode::Missing : ErrorCode::Invalid,
-                 "tenon identify: " +
+                 "identification: " +
                      (said.empty() ? "it ended with the code " + std::to_string(end.code) : said))
         .with_rule("identify.refused");
   }
@@ -123,7 +123,9 @@ Result<Json> answer_of(const IdentifyEnd& end, const Work& work, FoundLayer& fou
 
 Result<Json> tell_identify_logs(Session::State& state, ClientNumber, const Asked&, Outbox&) {
   const std::string why = why_not(state.options.identify);
-  return Json{{"logs", state.options.identify.logs},
+  const IdentifyTools& tools = state.options.identify;
+  return Json{{"logs", tools.logs},
+              {"commands", tools.commands.empty() ? Json(nullptr) : Json(tools.commands)},
               {"layer", layer_path(state)},
               {"whyNot", why.empty() ? Json(nullptr) : Json(why)}};
 }
@@ -153,7 +155,7 @@ Result<Json> write_identified(Session::State& state, ClientNumber, const Asked& 
   }
   if (!layer.problems.empty() && !asked.flag("force")) {
     return refused("it is not written: " + layer.problems.front(),
-                   "look at what is left; `force` writes it all the same");
+                   "look at the residuals; `force` writes it all the same");
   }
   read_anew();
   EditedFile file;

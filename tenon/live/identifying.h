@@ -55,6 +55,7 @@ using IdentifyRun = Function<Result<IdentifyEnd>(const IdentifyWish& wish, Work&
 /// What a session can identify with.
 struct IdentifyTools {
   std::vector<std::string> logs;  ///< files that pages may name
+  std::string commands;           ///< a table that the logs lack; empty: none
   IdentifyRun run;                ///< empty: the panel says that there is none
 };
 

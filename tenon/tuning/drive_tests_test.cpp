@@ -83,6 +83,13 @@ TEST_F(DriveTest, SnapOfAWeakDriveIsBlockedAndSaturated) {
   EXPECT_TRUE(says(result, "at its maxForce of 1 N for"));
 }
 
+TEST_F(DriveTest, SnapThatFrictionHoldsSaysTheDrive) {
+  stop_ = -0.45;  // the simulation here has no friction: nothing moves
+  joint().drives[0].max_force = 1;
+  joint().friction = 1;
+  EXPECT_TRUE(says(run({}).results.at(0), "its maxForce is too small"));
+}
+
 TEST_F(DriveTest, SnapThatAVelocityLimitSlowsFails) {
   joint().velocity_limit = 0.02;
   const DriveTestResult result = run({}).results.at(0);

@@ -196,7 +196,7 @@ class Reasons {
     }));
     for (std::size_t i = 0; i < found_.size(); ++i) {
       constexpr double kMostly = 0.5;
-      if (is_open(i) && found_[i].saturation >= kMostly) {
+      if (is_open(i) && (found_[i].saturation >= kMostly || friction_holds(i))) {
         told_[i] = true;
         found_[i].reasons.push_back("its maxForce is too small for what it moves: it ends " +
                                     missed(found_[i], row(i)) + " away");
@@ -217,6 +217,11 @@ class Reasons {
 
  private:
   const DriveRow& row(std::size_t i) const { return run_.in.rows[group_[i]]; }
+  /// Friction of the joint is as large as what its drive can do.
+  bool friction_holds(std::size_t i) const {
+    const scene::Joint& joint = run_.in.scene.joints[row(i).joint];
+    return row(i).drive && joint.friction >= joint.drives[*row(i).drive].max_force;
+  }
   bool is_open(std::size_t i) const { return is_bad(found_[i]) && !told_[i]; }
 
   template <class Reason>

@@ -47,6 +47,8 @@ def view(_):
     yield Row("--triangles", ("--triangles", "100"), sees=lambda o: o.seen["picture"])
     yield Row("--watch", ("--watch",), sees=lambda o: o.seen["reopened"], once=True)
     yield Row("--read-only", ("--read-only",), sees=lambda o: o.seen["edit"])
+    for option in ("--log", "--commands"):
+        yield Row(option, (option, "run.csv"), sees=lambda o: o.seen["logs"], once=True)
     yield Row("--for", ("--for", "0.1"), sees=lambda o: o.seen["ended"])
     shot = ("--screenshot", "shot.png")
     yield Row("--screenshot", shot, leaves_out=("--engine",), sees=file("shot.png"), once=True)
@@ -55,7 +57,8 @@ def view(_):
         row.once = True
         yield row
     for words in (("--engine", "{engine}"), ("--dt", "0.001"), ("--watch",), ("--read-only",),
-                  ("--bind", "127.0.0.1"), ("--port", "0"), ("--for", "1")):
+                  ("--log", "run.csv"), ("--commands", "run.csv"), ("--bind", "127.0.0.1"),
+                  ("--port", "0"), ("--for", "1")):
         yield Row(words[0], words, with_=shot, leaves_out=("--engine",), once=True,
                   refused={"*": re.escape(words[0]) + " is of "})
     yield from of_starts()

@@ -204,6 +204,8 @@ class ServedView:
             seen["edit"] = "error" not in client.ask(
                 "set", object="/World/Arm.physics:mass", value="3")
             seen["reopened"] = self.reopens(asset, client)
+            logs = client.done("identifyLogs")
+            seen["logs"] = logs["logs"], logs["commands"]
         return Outcome(0, answer=self.view.answer, seen=seen)
 
     def frame_after(self, client, steps):

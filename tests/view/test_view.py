@@ -252,6 +252,7 @@ class Messages(unittest.TestCase):
         pose = kept["poses"][0]["path"]
         do("goToPose", pose=pose, hold=True)
         do("importPoses", text=kept["file"].replace("here", "there"), dryRun=True)
+        do("identifyLogs")
         do("renamePose", pose=pose, name="there", dryRun=True)
         do("removePose", pose=pose, dryRun=True)
         do("undo")
@@ -281,6 +282,9 @@ class Messages(unittest.TestCase):
                 told = client.ask("step", count=5000)["error"]["message"]
                 self.assertIn("from 0 to 1000", told)
                 self.exercise_panels(do, client, joint)
+                for request, fields in (("identify", {"stage": "check"}), ("writeIdentified", {})):
+                    sent.add(request)  # there is no log: test_identify_page.py does them
+                    self.assertEqual(client.refused(request, **fields), "live.refused")
                 asset.write_text("no layer")
                 client.ask("set", object=attribute, value="45")
                 tables = client.done("messages")

@@ -39,7 +39,7 @@ export class Identify {
   private readonly names = this.lines("What logs call a joint", "NAME=JOINT, one a line");
   private readonly signs = this.lines("Joints counted the other way", "JOINT=-1, one a line");
   private readonly parameters = this.lines("Parameters", "friction\ngains:.*finger.*\nmass:tool=0..2");
-  private readonly priors = this.lines("What is known", "armature:elbow=0.012,0.002");
+  private readonly priors = this.lines("Priors", "armature:elbow=0.012,0.002");
   private readonly units: HTMLInputElement;
   private readonly training = this.number("Part that is fitted", 0.7, 0.05, 0.95);
   private readonly starts = this.number("Starts", 1, 1, 256);
@@ -113,6 +113,7 @@ export class Identify {
       ...(answer.logs.length > 0
         ? [...this.heldOut].map(([log, box]) => h("li", {}, `${log} `, h("label", {}, box, " held out, to prove the result on")))
         : [none]),
+      ...(answer.commands ? [h("li", {}, `Commands: ${answer.commands}`)] : []),
     );
   }
 
@@ -173,7 +174,7 @@ export class Identify {
     const replays = (engines ?? []).map((one) => [one.engine, one.before, one.after, one.why]);
     this.result.replaceChildren(
       table(["Parameter", "Asset", "Identified", "95 %", ""], rows),
-      h("h4", {}, "Held-out motion: what is left"),
+      h("h4", {}, "Residuals on held-out motion"),
       table(["Joint", "Signal", "Before", "After"], left),
       table(["Engine", "Before", "After", ""], replays),
       ...paragraphs(problems),

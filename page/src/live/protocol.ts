@@ -251,7 +251,7 @@ export interface Identified {
   ok: boolean;
   check?: IdentifyCheck;
   parameters?: IdentifiedParameter[];
-  /** root mean squares of what is left */ heldOut?: LeftOver[];
+  /** root mean squares of residuals */ heldOut?: LeftOver[];
   engines?: EngineReplay[];
   /** of a self-test */ scores?: IdentifiedParameter[];
   /** why the layer would not be written */ problems?: string[];
@@ -488,7 +488,7 @@ export interface Requests {
   /** Corrects findings that have a safe fix, as `tenon check --fix`. */
   fix: { fields: { rule?: string | null; prim?: string | null; property?: string | null; file?: string | null; line?: number | null; suggested?: boolean | null; dryRun?: boolean | null; }; answer: Edited };
   /** The logs that can be identified from. */
-  identifyLogs: { fields: Record<string, never>; answer: { logs: string[]; layer: string; whyNot: string | null; } };
+  identifyLogs: { fields: Record<string, never>; answer: { logs: string[]; commands: string | null; layer: string; whyNot: string | null; } };
   /** A stage of `tenon identify`; beside other long requests. */
   identify: { fields: { stage: string; logs?: Word[] | null; heldOut?: Word[] | null; parameters?: Word[] | null; priors?: Word[] | null; names?: Word[] | null; signs?: Word[] | null; units?: string | null; allowGaps?: boolean | null; hold?: boolean | null; training?: number | null; timeStep?: number | null; window?: number | null; starts?: number | null; }; answer: Identified };
   /** Writes what the last `solve` found as a layer over the asset. */
