@@ -27,7 +27,7 @@ class DriveTest : public testing::Test {
     add_drive(joint, 800, 80);
   }
 
-  DriveTests run(DriveTestOptions options) {
+  DriveTests run(const DriveTestOptions& options) {
     const dynamics::Multibody multibody(scene_);
     const auto rows = drive_rows(multibody, dynamics::Dynamics(multibody, multibody.start()));
     const MakeSimulation make = [this](const scene::PhysicsScene& scene,
