@@ -25,6 +25,8 @@ TOGETHER = 0.2
 #: Directions in which columns of length 1 move by less are as good as none: differences of
 #: simulations, in which friction sets in at once, are no more exact than that.
 DOUBT = 5e-3
+#: What a parameter is of such a direction at least to be lost with it.
+TOLD_APART = 0.02
 #: Noise counts as at least this part of a signal's deviation: no model is better than that.
 LEAST_NOISE = 0.01
 
@@ -165,11 +167,12 @@ def judge(parameters: list[Parameter], jacobian: Array, values: Array, doubt: fl
     triangle = np.linalg.qr(np.concatenate([scaled, np.zeros((len(parameters),) * 2)]), mode="r")
     _, singular, right = np.linalg.svd(triangle / lengths)
     with np.errstate(divide="ignore"):
-        inverse = np.where(singular > doubt, 1.0 / np.maximum(singular, 1e-300) ** 2, np.inf)
+        inverse = 1.0 / np.maximum(singular, doubt) ** 2
     variances = np.zeros(len(parameters))
-    for value, direction in zip(inverse, right):
-        parts = direction ** 2
-        variances += np.where(parts > 1e-10, parts * value if np.isfinite(value) else np.inf, 0.0)
+    for size, value, direction in zip(singular, inverse, right):
+        variances += direction ** 2 * value
+        if size <= doubt:
+            variances[np.abs(direction) > TOLD_APART] = np.inf
     errors = np.where(seen > 1e-9, np.sqrt(variances) / lengths, np.inf)
     least = MOST_ERROR * _wholes(parameters, values)
     refused = tuple(int(i) for i in np.flatnonzero(errors * scales > least))
