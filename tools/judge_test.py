@@ -86,7 +86,7 @@ class Parts(unittest.TestCase):
             text = file.read()
         parts = mutant_parts.read_parts()
         self.assertEqual(text, mutant_parts.with_sums(text, parts),
-                         "make it anew: python3 tools/mutant_parts.py write")
+                         "make it again: python3 tools/mutant_parts.py write")
         for i, one in enumerate(parts):
             self.assertFalse([other for other in parts[:i] if mutant_parts.overlap(one, other)])
 

@@ -166,8 +166,7 @@ def judge(parameters: list[Parameter], jacobian: Array, values: Array, doubt: fl
     lengths = np.where(seen > 1e-9, seen, 1.0)
     triangle = np.linalg.qr(np.concatenate([scaled, np.zeros((len(parameters),) * 2)]), mode="r")
     _, singular, right = np.linalg.svd(triangle / lengths)
-    with np.errstate(divide="ignore"):
-        inverse = 1.0 / np.maximum(singular, doubt) ** 2
+    inverse = 1.0 / np.maximum(singular, doubt) ** 2
     variances = np.zeros(len(parameters))
     for size, value, direction in zip(singular, inverse, right):
         variances += direction ** 2 * value

@@ -516,7 +516,7 @@ class Model:
             turning = speed[:, columns]
             places[k + 1] = own[:, columns]
             if speeds is not None:
-                speeds[k + 1] = speed[:, columns]
+                speeds[k + 1] = turning
             if effort and drives:
                 force = batch.drive_efforts()
                 for column, drive in drives:

@@ -20,6 +20,7 @@
 // finger of 0.1 kg creeps where 12 N m should hold it. As hard as the step allows it is Coulomb's.
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "tenon/engines/mujoco/build/build.h"
 #include "tenon/engines/mujoco/soft_defaults.h"
@@ -37,36 +38,44 @@ constexpr double kLimitSteps = 5;
 // damped it throws a joint back with 0.14 of it, since it pushes alone. At least so many steps:
 constexpr double kLimitDamping = 0.0044;
 constexpr double kLimitDampingSteps = 2.2;
-constexpr std::array<double, mjNIMP> kLimitImpedance{0.99, 0.999, 0.001, 0.5, 2};
+// Of limits and of friction of joints.
+constexpr std::array<double, mjNIMP> kHardImpedance{0.99, 0.999, 0.001, 0.5, 2};
+
+using Reference = std::array<double, mjNREF>;
+using Impedance = std::array<double, mjNIMP>;
+
+/// MuJoCo's numbers of a constraint.
+struct Softness {
+  Reference reference;
+  Impedance impedance;
+};
+
+/// What the asset says, else `ours`. Who says one of the two for MuJoCo means its default for the
+/// other.
+void write_softness(const Softness& ours, const std::vector<double>& reference,
+                    const std::vector<double>& impedance, mjtNum* solref, mjtNum* solimp) {
+  const bool own = reference.empty() && impedance.empty();
+  const Softness first = own ? ours : Softness{kSolref, kSolimp};
+  std::copy(first.reference.begin(), first.reference.end(), solref);
+  std::copy(first.impedance.begin(), first.impedance.end(), solimp);
+  std::copy(reference.begin(), reference.end(), solref);
+  std::copy(impedance.begin(), impedance.end(), solimp);
+}
 
 }  // namespace
 
 void soften_limit(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
                   mjtNum* solimp) {
-  const auto write = [&](const auto& reference, const auto& impedance) {
-    std::copy(reference.begin(), reference.end(), solref);
-    std::copy(impedance.begin(), impedance.end(), solimp);
-  };
-  if (authored.solref_limit.empty() && authored.solimp_limit.empty()) {
-    const double damps = std::max(kLimitDamping, kLimitDampingSteps * time_step);
-    const double period = std::max(kLimitTime, kLimitSteps * time_step);
-    write(std::array{damps, period / damps}, kLimitImpedance);
-    return;
-  }
-  // Who says one of the two for MuJoCo means its default for the other.
-  write(kSolref, kSolimp);
-  write(authored.solref_limit, authored.solimp_limit);
+  const double damps = std::max(kLimitDamping, kLimitDampingSteps * time_step);
+  const double period = std::max(kLimitTime, kLimitSteps * time_step);
+  write_softness({{damps, period / damps}, kHardImpedance}, authored.solref_limit,
+                 authored.solimp_limit, solref, solimp);
 }
 
 void harden_friction(double time_step, const scene::MujocoSoftness& authored, mjtNum* solref,
                      mjtNum* solimp) {
-  const bool own = authored.solref_friction.empty() && authored.solimp_friction.empty();
-  const std::array<double, mjNREF> reference = own ? std::array{2 * time_step, 1.0} : kSolref;
-  const std::array<double, mjNIMP>& impedance = own ? kLimitImpedance : kSolimp;
-  std::copy(reference.begin(), reference.end(), solref);
-  std::copy(impedance.begin(), impedance.end(), solimp);
-  std::copy(authored.solref_friction.begin(), authored.solref_friction.end(), solref);
-  std::copy(authored.solimp_friction.begin(), authored.solimp_friction.end(), solimp);
+  write_softness({{2 * time_step, 1}, kHardImpedance}, authored.solref_friction,
+                 authored.solimp_friction, solref, solimp);
 }
 
 SpringReference spring_reference(double stiffness, double damping, double time_step) {
