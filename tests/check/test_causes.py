@@ -14,6 +14,7 @@ import tempfile
 import unittest
 
 TENON = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 UNITS = 'metersPerUnit = 1\n    kilogramsPerUnit = 1\n    upAxis = "Z"'
 BOX = """    def Cube "{name}" (
         prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsCollisionAPI"{more}]
@@ -36,6 +37,22 @@ FLOOR = """    def Cube "Floor" (prepend apiSchemas = ["PhysicsCollisionAPI"])
 MATERIAL = """    def Material "M" (prepend apiSchemas = ["PhysicsMaterialAPI"])
     {{
         float physics:restitution = {}
+    }}
+"""
+MESH = """uniform token physics:approximation = "{}"
+        point3f[] points = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
+        int[] faceVertexCounts = [3, 3, 3, 3]
+        int[] faceVertexIndices = [0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2]"""
+
+
+def standing(kind, text=""):
+    """A collider without a body, around (0, 0, 1)."""
+    apis = "PhysicsCollisionAPI" + ('", "PhysicsMeshCollisionAPI' if kind == "Mesh" else "")
+    return f"""    def {kind} "Standing" (prepend apiSchemas = ["{apis}"])
+    {{
+        double3 xformOp:translate = (0, 0, 1)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        {text}
     }}
 """
 
@@ -172,6 +189,19 @@ def Xform "World" {apis}
                              (-3, ["collider.overlap-at-start"])):
             self.write(box("A", f"(0, 0, {height})") + floor)
             with self.subTest(height):
+                self.assertEqual(self.found(), told)
+
+    def test_its_page_says_which_shapes_are_compared(self):
+        page = (ROOT / "docs/rules/collider.overlap-at-start.md").read_text().replace("\n", " ")
+        self.assertIn("Shapes, and meshes as their convex hulls, are compared", page)
+        self.assertIn("exact triangle meshes are not", page)
+        for kind in ("Sphere", "Capsule", "Cylinder", "Cone", "Cube"):
+            self.write(box("A", "(0, 0, 1)") + standing(kind))
+            with self.subTest(kind):
+                self.assertEqual(self.found(), ["collider.overlap-at-start"])
+        for approximation, told in (("convexHull", ["collider.overlap-at-start"]), ("none", [])):
+            self.write(box("A", "(0, 0, 1)") + standing("Mesh", MESH.format(approximation)))
+            with self.subTest(approximation):
                 self.assertEqual(self.found(), told)
 
     def test_a_step_of_nothing_is_told(self):

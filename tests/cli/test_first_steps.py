@@ -175,6 +175,21 @@ class Conversion(Case):
             self.assertEqual([d["severity"] for d in told], [] if verb == ["tree"] else ["info"],
                              verb)
 
+    def test_no_verb_has_a_word_about_the_scene_that_conversion_leaves_out(self):
+        self.arm()
+        self.tenon("convert", "arm.urdf", "made.usda", "--fix-base")
+        short = {verb: ["--duration", "0.01"] for verb in ("bake", "bench", "report", "sim")}
+        short["compare"] = ["--duration", "0.01", "--engines", "mujoco,mujoco"]
+        short["benchmark"] = ["--tests", "ground_drop"]
+        rows = {verb: behind for verb, behind in READS.items() if verb not in ("record", "view")}
+        for verb, behind in [*rows.items(), ("convert", ["back.xml"]), ("convert", ["back.urdf"])]:
+            shutil.copy(self.folder / "made.usda", self.folder / "arm.usda")
+            words = [word.format(file="made.usda").replace("/World", "/arm").replace(
+                ".a=1", ".visibility=inherited").replace(".a", ".visibility") for word in behind]
+            process = self.tenon(verb, "arm.usda", *words, *short.get(verb, []), code=None)
+            self.assertNotEqual(process.returncode, 2, process.stderr)
+            self.assertNotIn("scene.missing", process.stdout + process.stderr, verb)
+
     def test_urdf_of_joints_without_a_speed_limit_lets_them_move(self):
         self.write("arm.xml", """<mujoco model="r"><worldbody><body name="a">
             <geom size="0.1"/><body name="b" pos="0 0 1"><joint name="j" axis="0 1 0" range="-60 60"
