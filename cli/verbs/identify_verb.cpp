@@ -15,12 +15,14 @@ namespace tenon::cli {
 namespace {
 
 constexpr std::array kIdentifyRows{
-    PythonOption{"--identify", "FAMILY:REGEX",
-                 "What to identify of which joints or bodies; =LOW..HIGH behind it for bounds. "
-                 "Families: friction, damping, stribeck, stribeckSpeed, armature, stiffness, "
-                 "driveDamping, gains (both), maxForce, delay, mass, offset, effortScale, "
-                 "contactFriction. Without it what logs usually tell",
-                 true},
+    PythonOption{
+        "--identify", "FAMILY:REGEX",
+        "What to identify of which joints or bodies; =LOW..HIGH behind it for bounds. "
+        "Families: friction, damping, stribeck, stribeckSpeed, armature, stiffness, "
+        "driveDamping, gains (both), maxForce, delay, mass, offset, effortScale, "
+        "contactFriction, mimicRatio, velocityLimit, centerOfMass (along X, Y, Z), inertia "
+        "(second moments). Without it what logs usually tell",
+        true},
     PythonOption{"--parameters", "FILE", "The same as tables [[parameter]] of a TOML file"},
     PythonOption{"--prior", "FAMILY:REGEX=VALUE,DEVIATION",
                  "A value that is known, and its deviation", true},

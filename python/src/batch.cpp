@@ -12,6 +12,7 @@
 #include "tenon/base/limits/engine_limits.h"
 #include "tenon/make_simulation.h"
 #include "tenon/physics/read_physics.h"
+#include "tenon/scene/fields/scale_field.h"
 
 namespace tenon::python {
 namespace {
@@ -36,7 +37,7 @@ bool needs_models(const std::vector<Variation>& variations) {
 Result<engines::Environments> make_each(Batch& batch, const BatchOptions& options) {
   std::vector<engines::World> worlds;
   for (std::size_t i = 0; i < options.count; ++i) {
-    auto own = std::make_unique<scene::PhysicsScene>(*batch.scene);
+    auto own = std::make_shared<scene::PhysicsScene>(*batch.scene);
     for (std::size_t v = 0; v < batch.variations.size(); ++v) {
       if (batch.variations[v].place == VariationPlace::Field) {
         TENON_CHECK(vary_scene(batch.variations[v], batch.drawn[i][v].front(), *own));
@@ -93,6 +94,22 @@ void list_coordinates(Batch& batch) {
   }
 }
 
+Result<void> write_fields(const std::vector<FieldKey>& fields, std::span<const double> row,
+                          scene::PhysicsScene& scene) {
+  std::size_t at = 0;
+  for (const FieldKey& key : fields) {
+    const Path object = Path::from(key.object);
+    if (scene::set_field(key.list, key.field, object, row.subspan(at, key.count), scene) == 0) {
+      return Error(ErrorCode::NotFound,
+                   "<" + key.object + "> has no field " + key.field + " of as many numbers")
+          .with_rule("vary.no-object")
+          .with_fix("tenon physics --json lists what there is");
+    }
+    at += key.count;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Batch>> Batch::make(const std::string& path, const OpenOptions& open,
@@ -109,6 +126,8 @@ Result<std::unique_ptr<Batch>> Batch::make(const std::string& path, const OpenOp
   TENON_CHECK(dynamics::apply_masks(options.masks, *batch->scene, batch->diagnostics));
   batch->engine = choose_engine(options.engine, *batch->stage, batch->diagnostics);
   batch->engine_version = engine_info(batch->engine).version;
+  batch->simulation = options.simulation;
+  batch->threads = options.threads;
   TENON_CHECK(draw_all(*batch, options));
   TENON_TRY(batch->environments, make_all(*batch, options));
   list_coordinates(*batch);
@@ -146,6 +165,38 @@ Result<void> Batch::set_drawn(std::size_t i, std::vector<std::vector<double>> nu
     }
   }
   drawn[i] = std::move(numbers);
+  return {};
+}
+
+Result<void> Batch::set_fields(const std::vector<FieldKey>& fields,
+                               std::span<const double> values) {
+  const std::size_t wide = values.size() / size();
+  const auto row = [&](std::size_t i) { return values.subspan(i * wide, wide); };
+  const auto before = [&](std::size_t i) {
+    return own_scenes.empty() ? scene.get() : own_scenes[i].get();
+  };
+  std::vector<std::shared_ptr<scene::PhysicsScene>> made;
+  std::vector<engines::Environments> parts;
+  for (std::size_t begin = 0, end = 0; begin < size(); begin = end) {
+    while (end < size() && before(end) == before(begin) &&
+           std::ranges::equal(row(end), row(begin))) {
+      ++end;
+    }
+    const auto own = std::make_shared<scene::PhysicsScene>(*before(begin));
+    TENON_CHECK(write_fields(fields, row(begin), *own));
+    Diagnostics again;  // said when the batch was made
+    TENON_TRY(auto part,
+              make_environments(
+                  engine, *own,
+                  {.count = end - begin, .threads = threads, .simulation = simulation}, again));
+    made.resize(end, own);
+    parts.push_back(std::move(part));
+  }
+  TENON_TRY(environments, engines::Environments::joined(std::move(parts), *scene, threads));
+  own_scenes = std::move(made);
+  for (std::size_t i = 0; i < size(); ++i) {
+    TENON_CHECK(vary(i));
+  }
   return {};
 }
 

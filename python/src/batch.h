@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ struct BatchOptions {
   engines::SimulationOptions simulation{};
 };
 
+/// A number of the description, or all of a vector or a matrix, by the names of its tables.
+struct FieldKey {
+  std::string list;    ///< "bodies"
+  std::string object;  ///< path
+  std::string field;   ///< "centerOfMass"
+  std::size_t count = 1;
+};
+
 /// One coordinate of a joint.
 struct Coordinate {
   scene::Index joint = 0;
@@ -54,6 +63,11 @@ class Batch {
   /// What environment i draws from its next reset on: numbers for each variation, as many as it
   /// drew; of fields of the scene those that it has. Errors: Invalid.
   Result<void> set_drawn(std::size_t i, std::vector<std::vector<double>> numbers);
+  /// Sets numbers of the description that engines do not change while they run. All environments
+  /// are made again, at their start; neighbours with the same numbers share a model. `values` has a
+  /// row for each environment, of all fields one behind the other. Errors: NotFound where nothing
+  /// has a field; those of making a simulation.
+  Result<void> set_fields(const std::vector<FieldKey>& fields, std::span<const double> values);
 
   std::recursive_mutex mutex;  ///< again from handlers of signals, between two steps
   BlockStepper stepper;
@@ -64,7 +78,10 @@ class Batch {
   OpenOptions open;
   std::string path;
   std::unique_ptr<scene::PhysicsScene> scene;
-  std::vector<std::unique_ptr<scene::PhysicsScene>> own_scenes;  ///< of varied fields
+  /// Of each environment; none where fields are the same for all.
+  std::vector<std::shared_ptr<scene::PhysicsScene>> own_scenes;
+  engines::SimulationOptions simulation{};  ///< of every environment
+  std::size_t threads = 0;                  ///< as in BatchOptions
   std::optional<engines::Environments> environments;
   std::vector<Coordinate> coordinates;  ///< (coordinate_count)
   std::vector<Coordinate> drives;       ///< (drive_count), parts into Joint::drives

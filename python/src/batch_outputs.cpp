@@ -8,12 +8,16 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "batch_calls.h"
 #include "failure.h"
 #include "numbers.h"
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include "tenon/asset/export_mjcf.h"
 #include "tenon/asset_policy.h"
@@ -256,6 +260,23 @@ nb::tuple to_mjcf(Batch& batch, std::size_t i, const std::string& folder) {
   return nb::make_tuple(text(exported.text), images, to_list(found));
 }
 
+/// (list, object, field, how many numbers) each.
+void set_fields(
+    Batch& batch,
+    const std::vector<std::tuple<std::string, std::string, std::string, std::size_t>>& keys,
+    const nb::ndarray<const double, nb::c_contig, nb::device::cpu>& values) {
+  std::vector<FieldKey> fields;
+  std::size_t wide = 0;
+  for (const auto& [list, object, field, count] : keys) {
+    fields.push_back({list, object, field, count});
+    wide += count;
+  }
+  if (values.size() != batch.size() * wide) {
+    throw nb::value_error("the array has another number of values");
+  }
+  or_raise(with(batch, [&] { return batch.set_fields(fields, {values.data(), values.size()}); }));
+}
+
 }  // namespace
 
 void bind_outputs(nb::class_<Batch>& batch) {
@@ -278,6 +299,7 @@ void bind_outputs(nb::class_<Batch>& batch) {
   batch.def("to_mjcf", &to_mjcf, "environment"_a, "folder"_a,
             nb::sig("def to_mjcf(self, environment: int, folder: str) -> tuple[str, "
                     "dict[str, bytes], list[Diagnostic]]"));
+  batch.def("set_fields", &set_fields, "fields"_a, "values"_a);
 }
 
 }  // namespace tenon::python

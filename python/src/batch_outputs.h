@@ -7,7 +7,7 @@
 
 namespace tenon::python {
 
-/// States, contacts, sensors and models of single environments.
+/// States, contacts, sensors and models of environments.
 void bind_outputs(nanobind::class_<Batch>& batch);
 
 }  // namespace tenon::python

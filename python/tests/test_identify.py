@@ -39,7 +39,7 @@ try:
     from tenon_usd.identify.log_files import read_log
     from tenon_usd.identify.model import Held, Model, joined_logs, windows_of
     from tenon_usd.identify.overlay import make_overlay, write_overlay
-    from tenon_usd.identify.parameters import (FAMILIES, UNSUPPORTED, Parameter, ParametersError,
+    from tenon_usd.identify.parameters import (FAMILIES, GROUPS, Parameter, ParametersError,
                                                Row, prior_from_text, rows_from_file, rows_from_text,
                                                select)
     from tenon_usd.identify.run import RefusedError, check_mapping, identify
@@ -121,8 +121,8 @@ class Rows(support.FilesTestCase):
                          [Row("armature", "elbow", prior=0.01, deviation=0.002)])
         with self.assertRaisesRegex(NotFoundError, "did you mean 'friction'"):
             rows_from_text("fricton")
-        with self.assertRaisesRegex(NotFoundError, "inertia cannot be identified: engines"):
-            rows_from_text("inertia:.*")
+        self.assertEqual(rows_from_text("inertia:arm"),
+                         [Row(f"secondMoment{axis}", "arm") for axis in "XYZ"])
         for text in ("friction=1", "friction=2..1", "friction=a..b", "friction=1..inf"):
             self.assertRaises(InvalidError, rows_from_text, text)
         for text in ("friction", "friction=1", "friction=1,-2"):
@@ -132,7 +132,10 @@ class Rows(support.FilesTestCase):
         answer = subprocess.run([PROGRAM, "identify", "--help"], capture_output=True, text=True,
                                 check=True).stdout
         told = re.search(r"Families: ([^.]*)\.", " ".join(answer.split()))[1]
-        self.assertEqual(set(re.split(r", | \(both\),? ?", told)) - {""}, {*FAMILIES, "gains"})
+        named = re.sub(r" \([^)]*\)", "", told).split(", ")
+        whole = [family for name in named for family in GROUPS.get(name, (name,))]
+        self.assertEqual(set(whole), set(FAMILIES))
+        self.assertEqual(set(GROUPS) - set(named), set())
 
     def test_a_file_has_the_same_rows_and_its_faults_have_lines(self):
         path = self.written("p.toml", '[[parameter]]\nfamily = "damping"\njoints = "elbow"\n'
@@ -532,7 +535,7 @@ class CostlyLogs(support.FilesTestCase):
 class Page(support.FilesTestCase):
     def test_every_family_is_in_the_page_of_the_docs(self):
         text = (support.ROOT / "docs/identify.md").read_text(encoding="utf-8")
-        for family in [*FAMILIES, *UNSUPPORTED]:
+        for family in [*FAMILIES, *GROUPS]:
             self.assertRegex(text, re.escape(f"`{family}`"))
 
     def run_line(self, words):

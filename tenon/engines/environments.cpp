@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: tenon authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each environment is a World of its own; threads take every n-th of them, so that none waits for
+// another and no result depends on how many threads there are.
 #include "tenon/engines/environments.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -75,6 +79,15 @@ Result<Environments> Environments::of_worlds(std::vector<World> worlds,
     }
   }
   return result;
+}
+
+Result<Environments> Environments::joined(std::vector<Environments> parts,
+                                          const scene::PhysicsScene& scene, std::size_t threads) {
+  std::vector<World> worlds;
+  for (Environments& part : parts) {
+    std::move(part.worlds_.begin(), part.worlds_.end(), std::back_inserter(worlds));
+  }
+  return of_worlds(std::move(worlds), scene, threads);
 }
 
 std::size_t Environments::step(std::size_t count) {

@@ -34,6 +34,10 @@ class Environments {
   static Result<Environments> of_worlds(std::vector<World> worlds, const scene::PhysicsScene& scene,
                                         std::size_t threads);
 
+  /// The environments of all parts in their order, as of_worlds() makes them.
+  static Result<Environments> joined(std::vector<Environments> parts,
+                                     const scene::PhysicsScene& scene, std::size_t threads);
+
   std::size_t size() const { return worlds_.size(); }
   /// Not while step() runs.
   World& operator[](std::size_t i) { return worlds_[i]; }

@@ -184,7 +184,7 @@ def _wholes(parameters: list[Parameter], values: Array) -> Array:
     """Of what an expected error is a part: of the number, or of its scale where the asset has
     none, shape (P,)."""
     scales = scales_of(parameters, values)
-    return np.array([scale if each.nominal <= 0 or each.family in ("delay", "offset")
+    return np.array([scale if each.nominal <= 0 or each.is_place
                      or not np.isfinite(each.nominal) else max(abs(value), each.nominal)
                      for each, value, scale in zip(parameters, values, scales)])
 

@@ -31,6 +31,9 @@ from .stribeck import DECAY
 MAX_SAMPLES = 400
 #: What acts along a joint beside its weight and the inertia of links.
 PLANT = ("armature", "damping", "friction", "stribeck")
+#: The quantile that counts as the largest speed or effort, and by how much a model exceeds it that
+#: lacks the limit.
+MOST, EXCEEDED = 0.99, 1.05
 #: Delays that are tried, in steps of the model.
 MAX_DELAYS = 60
 
@@ -63,14 +66,40 @@ def linear_start(model: Model, parameters: list[Parameter]) -> Array:
     """A start for every parameter, shape (P,): what efforts tell, else its own."""
     values = np.array([each.start for each in parameters])
     log = model.log
-    if log.position is None or log.effort is None or len(log) < 20:
+    if log.position is None or len(log) < 20:
         return values
-    optimize = scipy("optimize")
     moves = [smoothed(log.times, log.position[:, j], 3 * log.step + 0.01)
              if has(log.position, j) else None for j in range(len(log.joints))]
-    _gains(model, parameters, values, moves, optimize)
-    _plants(model, parameters, values, moves, optimize)
+    if log.effort is not None:
+        optimize = scipy("optimize")
+        _gains(model, parameters, values, moves, optimize)
+        _plants(model, parameters, values, moves, optimize)
+    _limits(model, parameters, values, moves)
     return values
+
+
+def _limits(model: Model, parameters: list[Parameter], values: Array, moves: list[Any]) -> None:
+    """Limits of speed and effort begin at the largest that the log has, where the model exceeds
+    that: a limit that is not reached tells nothing."""
+    own = [at for at, each in enumerate(parameters) if each.family in ("velocityLimit", "maxForce")
+           and each.paths[0] in model.log.joints]
+    if not own:
+        return
+    made = model.predict(parameters, values[None])
+    for at in own:
+        column = model.log.joints.index(parameters[at].paths[0])
+        if parameters[at].family == "velocityLimit":
+            place = made["position"][0, ..., column]
+            real = None if moves[column] is None else moves[column][1]
+            modelled = np.gradient(place, model.log.step, axis=-1)
+        else:
+            real = model.log.effort[:, column] if model.log.effort is not None else None
+            modelled = made["effort"][0, ..., column] if "effort" in made else np.zeros(0)
+        if real is None or not np.isfinite(real).any() or not np.isfinite(modelled).any():
+            continue
+        most, exceeded = (float(np.nanquantile(np.abs(each), MOST)) for each in (real, modelled))
+        if exceeded > EXCEEDED * most > 0:
+            values[at] = min(max(most, parameters[at].low), parameters[at].high)
 
 
 def _of(parameters: list[Parameter], family: str, joint: str) -> int | None:

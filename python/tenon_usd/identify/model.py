@@ -23,8 +23,9 @@ from ..dynamics import Dynamics
 from ..errors import Error, InvalidError, NotFoundError, UnsupportedError
 from ..options import PathLike
 from ..world import World
+from .description import describe, follow, is_described
 from .log import Array, Log
-from .parameters import FAMILIES, Parameter, Plant, plant_of
+from .parameters import FAMILIES, NO_LIMIT, Parameter, Plant, plant_of
 from .states import closed, initial_states
 from .stribeck import DECAY, RestFriction, resisted
 
@@ -162,7 +163,7 @@ class Model:
         self._make: Any = lambda envs: World(
             asset, engine, envs, threads=threads or (1 if envs < FEW_ENVS else 0), time_step=step,
             outputs=["efforts"] if self._reads_efforts else [], **options)
-        self._worlds: dict[int, World] = {}
+        self._worlds: dict[tuple[int, bool], World] = {}
         self.scene = world.scene
         self.parts = tuple(parts)
         self.columns = self._columns(world)
@@ -191,11 +192,12 @@ class Model:
         """The same with a time step so many times smaller. Raises what the class does."""
         return Model(self._asset, self.log, step=self.step / times, **self._given)
 
-    def world(self, envs: int) -> World:
-        """A world of so many environments, made once."""
-        if envs not in self._worlds:
-            self._worlds[envs] = self._make(envs)
-        return self._worlds[envs]
+    def world(self, envs: int, described: bool = False) -> World:
+        """A world of so many environments, made once; another one where numbers of its description
+        change."""
+        if (envs, described) not in self._worlds:
+            self._worlds[envs, described] = self._make(envs)
+        return self._worlds[envs, described]
 
     def _columns(self, world: World) -> list[int]:
         names = world.joint_names
@@ -244,16 +246,7 @@ class Model:
             good = np.isfinite(own[:, column])
             positions[good, coordinate] = own[good, column]
             velocities[good, coordinate] = speed[good, column]
-        for _ in range(8):  # followers of followers
-            for joint in scene.joints:
-                if joint.path not in names or joint.path in self.log.joints:
-                    continue
-                for mimic in joint.mimics[:1]:
-                    leader = scene.joints[mimic.leader].path
-                    if leader in names:
-                        at, of = names.index(joint.path), names.index(leader)
-                        positions[:, at] = mimic.multiplier * positions[:, of] + mimic.offset
-                        velocities[:, at] = mimic.multiplier * velocities[:, of]
+        follow(scene, names, self.log.joints, positions, velocities, [], np.zeros((1, 0)))
         self.start = closed(world, self.log, positions, velocities)
 
     def _samples(self) -> None:
@@ -333,19 +326,19 @@ class Model:
     def check(self, parameters: list[Parameter]) -> list[tuple[Parameter, str]]:
         """Those that the engine cannot set while it runs, with the reason."""
         refused = []
-        world = self.world(1)
-        world.reset()
+        world = self._make(1)
         for parameter in parameters:
             try:
-                self._set(world, parameter, np.array([parameter.start]))
+                start = np.array([parameter.start])
+                if not describe(world, [parameter], start[None]):
+                    self._set(world, parameter, start)
             except Error as error:
                 refused.append((parameter, str(error)))
-        world.reset()
         return refused
 
     def _set(self, world: World, parameter: Parameter, values: Array) -> None:
         name = FAMILIES[parameter.family].sets
-        if name:
+        if name and not is_described(parameter):
             for path, share in parameter.parts:
                 if share:  # of a sum; the others stay 0, which not every engine can set
                     world.set_parameter(name, path, share * values)
@@ -362,8 +355,9 @@ class Model:
 
     def _run(self, parameters: list[Parameter], sets: Array, clock: Array) -> dict[str, Array]:
         wide, count = len(self.windows), len(sets)
-        world = self.world(count * wide)
-        world.reset()
+        world = self.world(count * wide, any(map(is_described, parameters)))
+        if not describe(world, parameters, np.repeat(sets, wide, axis=0)):
+            world.reset()
         for at, parameter in enumerate(parameters):
             self._set(world, parameter, np.repeat(sets[:, at], wide))
         offsets = self._special(parameters, sets, "offset", 0.0)
@@ -371,8 +365,12 @@ class Model:
         positions = np.tile(self.start[0], (count, 1))
         for column, coordinate in enumerate(self.columns):
             positions[:, coordinate] -= np.repeat(offsets[:, column], wide)
+        velocities = np.tile(self.start[1], (count, 1))
+        if any(each.family == "mimicRatio" for each in parameters):
+            follow(self.scene, world.joint_names, self.log.joints, positions, velocities,
+                   parameters, np.repeat(sets, wide, axis=0))
         try:
-            world.set_joints(positions, np.tile(self.start[1], (count, 1)))
+            world.set_joints(positions, velocities)
         except UnsupportedError as error:
             raise UnsupportedError(f"{self.engine} cannot begin at the states of the log: "
                                    f"{error}") from None
@@ -571,7 +569,7 @@ def is_plain(drive: Any) -> bool:
 def largest_speed(joint: Any) -> float:
     """Of a joint with its drive [rad/s or m/s]; infinite where nothing limits it."""
     limits = [joint.velocity_limit, *(drive.max_velocity for drive in joint.drives[:1])]
-    return min((float(limit) for limit in limits if limit is not None and 0 < limit < 1e6),
+    return min((float(limit) for limit in limits if limit is not None and 0 < limit < NO_LIMIT),
                default=math.inf)
 
 

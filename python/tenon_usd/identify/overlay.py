@@ -23,6 +23,7 @@ from .. import _tenon
 from ..errors import Error, FileError
 from ..functions import open as open_stage
 from .log import Array
+from .moments import axes_of, inertia_of_moments
 from .parameters import Parameter
 
 #: Floats of the schemas keep this part of a number.
@@ -159,6 +160,72 @@ def _mass_opinions(stage: _tenon.Stage, path: str, value: float, was: float, uni
     return made
 
 
+def _limit_opinions(path: str, value: float, angular: bool, units: _Units) -> list[Opinion]:
+    kind = "angular" if angular else "linear"
+    own = math.degrees(value) if angular else value / units.length
+    return [Opinion(path, "NewtonJointAPI", "newton:velocityLimit", "float", own),
+            Opinion(path, f"PhysxJointAxisAPI:{kind}",
+                    f"physxJointAxis:{kind}:maxJointVelocity", "float", own)]
+
+
+def _mimic_opinions(prim: Any, path: str, value: float, angular: tuple[bool, bool], units: _Units
+                    ) -> list[Opinion]:
+    """Of the law that the joint has: PhysX's, q + gearing leader + offset = 0, or Newton's, with
+    MuJoCo's old name. `angular`: the follower, the leader."""
+    own, lead = (math.pi / 180 if each else units.length for each in angular)
+    ratio = value * lead / own
+    made = []
+    for name in prim.authored:
+        if name == "newton:mimicCoef1":
+            made.append(Opinion(path, "", name, "float", ratio))
+        elif name == "mjc:coef1":
+            made.append(Opinion(path, "", name, "double", ratio))
+        elif name.startswith("physxMimicJoint:") and name.endswith(":gearing"):
+            made.append(Opinion(path, "", name, "float", -ratio))
+    return made or [Opinion(path, "NewtonMimicAPI", "newton:mimicCoef1", "float", ratio)]
+
+
+def _of_bodies(scene: Any, wanted: dict[tuple[str, str], float]
+               ) -> dict[tuple[str, str], Array]:
+    """Centres of mass (3,) and inertias (3, 3) of bodies that have numbers of `wanted`, the others
+    of them as in the scene: by path and "centerOfMass" or "secondMoment"."""
+    made: dict[tuple[str, str], Array] = {}
+    for body in scene.bodies:
+        own = np.array(body.center_of_mass, dtype=np.float64)
+        axes, moments = axes_of(np.asarray(body.inertia))
+        for kind, numbers in (("centerOfMass", own), ("secondMoment", moments)):
+            for at, axis in enumerate("XYZ"):
+                if (kind + axis, body.path) in wanted:
+                    numbers[at] = wanted[kind + axis, body.path]
+                    made[body.path, kind] = numbers
+        if (body.path, "secondMoment") in made:
+            made[body.path, "secondMoment"] = inertia_of_moments(axes, moments)
+    return made
+
+
+def _body_opinions(of: tuple[str, str], value: Array, units: _Units) -> list[Opinion]:
+    path, kind = of
+    if kind == "centerOfMass":
+        return [Opinion(path, "PhysicsMassAPI", "physics:centerOfMass", "point3f",
+                        tuple(map(float, value / units.length)))]
+    axes, moments = axes_of(value)
+    diagonal = (moments.sum() - moments) / (units.mass * units.length ** 2)
+    return [Opinion(path, "PhysicsMassAPI", "physics:diagonalInertia", "float3",
+                    tuple(map(float, diagonal))),
+            Opinion(path, "PhysicsMassAPI", "physics:principalAxes", "quatf", _quaternion(axes))]
+
+
+def _quaternion(axes: Array) -> tuple[float, ...]:
+    """Of a rotation: w, x, y, z (Bar-Itzhack 2000)."""
+    twist = [axes[2, 1] - axes[1, 2], axes[0, 2] - axes[2, 0], axes[1, 0] - axes[0, 1]]
+    matrix = np.empty((4, 4))
+    matrix[:3, :3] = axes + axes.T - np.trace(axes) * np.eye(3)
+    matrix[3, :3] = matrix[:3, 3] = twist
+    matrix[3, 3] = np.trace(axes)
+    x, y, z, w = np.linalg.eigh(matrix)[1][:, 3]
+    return tuple(float(each) * (-1 if w < 0 else 1) for each in (w, x, y, z))
+
+
 def make_overlay(asset: str, output: str, parameters: Sequence[Parameter], values: Array
                  ) -> Overlay:
     """The layer for `output`, over `asset`. Raises errors of tenon_usd.errors: InvalidError where
@@ -184,9 +251,14 @@ def make_overlay(asset: str, output: str, parameters: Sequence[Parameter], value
         elif family in ("stiffness", "driveDamping", "maxForce"):
             drive = joints[path].drives[0]
             add(_drive_opinions(family, path, value, drive.dof, units, bool(drive.type)))
+        elif family == "velocityLimit":
+            add(_limit_opinions(path, value, joints[path].type != "prismatic", units))
         elif family == "mass":
             add(_mass_opinions(stage, path, value, bodies[path].mass, units))
+    for of, numbers in _of_bodies(scene, wanted).items():
+        add(_body_opinions(of, numbers, units))
     for variant in variants or [""]:
+        _add_mimics(_opened(asset, variant), wanted, units, add)
         _add_actuators(asset, variant, wanted, units, add)
     made = list(opinions.values())
     text = _text(stage, asset, output, made)
@@ -204,6 +276,16 @@ def _variants(stage: _tenon.Stage) -> list[str]:
 
 def _opened(asset: str, variant: str) -> _tenon.Stage:
     return open_stage(asset, physics=variant) if variant else open_stage(asset)
+
+
+def _add_mimics(stage: _tenon.Stage, wanted: dict[tuple[str, str], float], units: _Units, add: Any
+                ) -> None:
+    for joint in stage.physics().joints:
+        value = wanted.get(("mimicRatio", joint.path))
+        for mimic in joint.mimics[:1] if value is not None else ():
+            assert value is not None
+            turns = (mimic.dof.startswith("rot"), mimic.leader_dof.startswith("rot"))
+            add(_mimic_opinions(stage[joint.path], joint.path, value, turns, units))
 
 
 def _add_actuators(asset: str, variant: str, wanted: dict[tuple[str, str], float], units: _Units,
@@ -287,6 +369,7 @@ def _said(opinion: Opinion) -> str:
 def _read_back(text: str, asset: str, output: str, variants: list[str],
                wanted: dict[tuple[str, str], float]) -> None:
     """Opens the layer as it would be in its place and compares. Raises InvalidError."""
+    described = _of_bodies(open_stage(asset).physics(), wanted)
     folder = tempfile.mkdtemp(prefix="tenon-identify-")
     try:
         path = os.path.join(folder, "overlay.usda")
@@ -302,6 +385,15 @@ def _read_back(text: str, asset: str, output: str, variants: list[str],
                     raise Error(
                         f"{family} of {of} is {found:g} under the variant {variant or 'none'}, "
                         f"not the identified {value:g}: another layer of the asset is stronger")
+            bodies = {body.path: body for body in scene.bodies}
+            for (of, family), numbers in described.items():
+                body = bodies[of]
+                own = np.asarray(body.center_of_mass if family == "centerOfMass"
+                                 else body.inertia)
+                if np.abs(own - numbers).max() > READ_BACK * max(np.abs(numbers).max(), 1e-12):
+                    raise Error(f"{family} of {of} is {own.tolist()}, not the identified "
+                                f"{numbers.tolist()}: another layer of the asset is stronger, or "
+                                "the prim is scaled")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -314,6 +406,12 @@ def _found(scene: Any, family: str, path: str) -> float | None:
         name = {"driveDamping": "damping", "maxForce": "max_force"}.get(family, family)
         return next((float(getattr(joint.drives[0], name)) for joint in scene.joints
                      if joint.path == path and len(joint.drives)), None)
+    if family == "velocityLimit":
+        return next((float(joint.velocity_limit) for joint in scene.joints
+                     if joint.path == path), None)
+    if family == "mimicRatio":
+        return next((float(joint.mimics[0].multiplier) for joint in scene.joints
+                     if joint.path == path and len(joint.mimics)), None)
     if family == "mass":
         return next((float(body.mass) for body in scene.bodies if body.path == path), None)
     return None

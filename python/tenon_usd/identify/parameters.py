@@ -22,16 +22,20 @@ from ..actuators import fitting
 from ..errors import InvalidError, NotFoundError
 from ..world import World
 from .log import Log
+from .moments import axes_of
 from .stribeck import DECAY
 
 MAX_FILE_BYTES = 1 << 20
 MAX_PARAMETERS = 400
+#: Limits of velocity from here on are none [rad/s or m/s].
+NO_LIMIT = 1e6
 
 
 @dataclasses.dataclass(frozen=True)
 class Family:
     """One kind of parameter. `of` is what has it; `sets` the number of World.set_parameter() that
-    it is, empty where the model of the log has it; `motion` the motion that tells it."""
+    it is, with a dot a field of the description, empty where the model of the log has it; `motion`
+    the motion that tells it."""
 
     of: str
     unit: str
@@ -67,15 +71,24 @@ FAMILIES = {
                      "postures in which gravity pulls differently, and the effort in the log"),
     "effortScale": Family("joint", "1", "", 1e-3, 1e3,
                           "effort in the log, and a known mass that is lifted or accelerated"),
+    "mimicRatio": Family("joint that follows", "1", "joints.mimics.multiplier", -math.inf,
+                         math.inf, "positions of the joint that follows, in the log"),
+    "velocityLimit": Family("joint with a limit of velocity", "rad/s or m/s",
+                            "joints.velocityLimit", 1e-6, math.inf,
+                            "commands that are faster than the joint may be"),
+    **{f"centerOfMass{axis}": Family(
+        "body", "m", "bodies.centerOfMass", -math.inf, math.inf,
+        "postures in which gravity pulls differently, and the effort in the log")
+       for axis in "XYZ"},
+    **{f"secondMoment{axis}": Family(
+        "body", "kg m^2", "bodies.inertia", 0, math.inf,
+        "fast accelerations about several axes, and the effort in the log") for axis in "XYZ"},
 }
 #: Names for several families.
-GROUPS = {"gains": ("stiffness", "driveDamping")}
-#: What logs could tell and no engine here takes while it runs, with the reason.
-UNSUPPORTED = {
-    "inertia": "engines change masses while they run, and inertia with them; identify mass",
-    "centerOfMass": "engines change masses while they run, not where they are; identify mass",
-    "mimicRatio": "ratios of mimics are part of the model; set them and identify again",
-    "velocityLimit": "limits of velocity are part of the model; set them and identify again",
+GROUPS = {
+    "gains": ("stiffness", "driveDamping"),
+    "centerOfMass": tuple(f"centerOfMass{axis}" for axis in "XYZ"),
+    "inertia": tuple(f"secondMoment{axis}" for axis in "XYZ"),
 }
 
 
@@ -140,6 +153,11 @@ class Parameter:
     def unit(self) -> str:
         return FAMILIES[self.family].unit
 
+    @property
+    def is_place(self) -> bool:
+        """Whether it is somewhere in time or space: how large it is says nothing of a change."""
+        return self.family in ("delay", "offset") or self.family.startswith("centerOfMass")
+
 
 class ParametersError(FileError):
     """Rows that cannot be used: a Fault for each thing that is wrong."""
@@ -151,8 +169,6 @@ def _families(name: str) -> tuple[str, ...]:
         return GROUPS[name]
     if name in FAMILIES:
         return (name,)
-    if name in UNSUPPORTED:
-        raise NotFoundError(f"{name} cannot be identified: {UNSUPPORTED[name]}")
     raise NotFoundError(f"family: {no_such(name, [*FAMILIES, *GROUPS])}")
 
 
@@ -296,6 +312,11 @@ def _names(plant: Plant, log: Log, of: str) -> list[str]:
         return list(plant.bodies)
     if of == "collider":
         return list(plant.colliders)
+    if of == "joint that follows":
+        return [path for path, joint in plant.joints.items() if len(joint.mimics) == 1]
+    if of == "joint with a limit of velocity":
+        return [path for path in log.joints if path in plant.joints
+                and plant.joints[path].velocity_limit < NO_LIMIT]
     return [name for name in log.joints if name in (plant.drives if of == "drive"
                                                     else plant.joints)]
 
@@ -309,6 +330,15 @@ def _nominal(plant: Plant, family: str, path: str) -> float:
                       "maxForce": drive.max_force}[family])
     if family == "mass":
         return float(plant.bodies[path].mass)
+    if family == "mimicRatio":
+        return float(plant.joints[path].mimics[0].multiplier)
+    if family == "velocityLimit":
+        return float(plant.joints[path].velocity_limit)
+    if family.startswith("centerOfMass"):
+        return float(plant.bodies[path].center_of_mass["XYZ".index(family[-1])])
+    if family.startswith("secondMoment"):
+        moments = axes_of(np.asarray(plant.bodies[path].inertia))[1]
+        return float(moments["XYZ".index(family[-1])])
     if family == "contactFriction":
         return plant.colliders[path]
     if family == "stribeckSpeed":
@@ -322,9 +352,15 @@ def _scale(plant: Plant, log: Log, family: str, path: str, nominal: float) -> fl
         return max(log.step, 1e-3)
     if family == "offset":
         return 0.02
+    if family.startswith(("centerOfMass", "secondMoment")):
+        body = plant.bodies[path]
+        spread = 0.5 * float(np.trace(np.asarray(body.inertia)))
+        # A part of the body's size, or of the inertia of a body that large.
+        return (0.3 * math.sqrt(spread / body.mass) if family.startswith("centerOfMass")
+                else max(nominal, 0.1 * spread))
     if family not in ("friction", "stribeck", "damping", "armature", "stiffness", "driveDamping",
                       "maxForce"):
-        return max(nominal, 0.1)
+        return max(abs(nominal), 0.1)
     at = log.joints.index(path)
     inertia = plant.inertia.get(path, 0.0) or 1e-3
     speed = _size(log.velocity, at) or _size(_slope(log), at) or 1.0
@@ -386,10 +422,13 @@ POWERS = {"friction": 1, "damping": 2, "armature": 2}
 def summed(parameters: Sequence[Parameter], plant: Plant) -> list[Parameter]:
     """The same with one parameter, their sum, in place of those that no motion tells apart:
     friction, damping and armature of a joint and of its followers. What a prior is about stays
-    for itself."""
+    for itself, and so do joints whose ratio is not known yet."""
     groups: dict[tuple[str, str], list[tuple[float, Parameter]]] = {}
+    open_ratios = {path for each in parameters if each.family == "mimicRatio"
+                   for path in each.paths}
     for each in parameters:
-        if each.family in POWERS and len(each.paths) == 1 and each.prior is None:
+        if each.family in POWERS and len(each.paths) == 1 and each.prior is None and (
+                each.paths[0] not in open_ratios):
             leader, ratio = plant.followers.get(each.paths[0], (each.paths[0], 1.0))
             groups.setdefault((each.family, leader), []).append(
                 (abs(ratio) ** POWERS[each.family], each))

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import InvalidError, UnstableError
 from ..world import World
+from .description import describe, is_described
 from .identifiable import Identifiability
 from .log import Array, Log
 from .model import INTEGRATORS, Model, inertia_of, is_stiff, largest_speed
@@ -31,7 +32,9 @@ DEFAULT_FAMILIES = ("friction", "damping", "armature", "stiffness", "driveDampin
 ALLOWED = {"friction": 0.05, "damping": 0.05, "armature": 0.05, "stiffness": 0.02,
            "driveDamping": 0.02, "delay": 0.5, "mass": 0.05, "maxForce": 0.02,
            "effortScale": 0.02, "offset": 0.05, "contactFriction": 0.1, "stribeck": 0.25,
-           "stribeckSpeed": 0.25}
+           "stribeckSpeed": 0.25, "mimicRatio": 0.02, "velocityLimit": 0.02,
+           "centerOfMassX": 0.1, "centerOfMassY": 0.1, "centerOfMassZ": 0.1,
+           "secondMomentX": 0.1, "secondMomentY": 0.1, "secondMomentZ": 0.1}
 
 
 #: Of their largest speed, how fast commands are; of their size, how small at the smallest.
@@ -152,13 +155,14 @@ def _excited(random: np.random.Generator, times: Array, low: float, high: float,
 def _give(world: World, parameters: Sequence[Parameter],
           values: Array) -> dict[str, dict[str, float]]:
     """Sets what a world has of the numbers. Returns others by family and path."""
+    describe(world, parameters, np.asarray(values)[None])
     others = {family: dict[str, float]() for family, each in FAMILIES.items() if not each.sets}
     for parameter, value in zip(parameters, values):
         name = FAMILIES[parameter.family].sets
         for path, share in parameter.parts:
-            if name:
+            if name and not is_described(parameter):
                 world.set_parameter(name, path, share * value)
-            else:
+            elif not name:
                 others[parameter.family][path] = value
     return others
 
@@ -309,6 +313,10 @@ def perturbed(parameters: Sequence[Parameter], seed: int, step: float, finer: in
             made[at] = round(6 * part * finer) * step / finer
         elif parameter.family == "offset":
             made[at] = parameter.scale * (part - 1)
+        elif parameter.is_place:
+            made[at] = parameter.nominal + parameter.scale * (part - 1)
+        elif parameter.family == "mimicRatio":
+            made[at] = parameter.nominal * (0.8 + 0.25 * part)
         elif parameter.nominal > 0 and math.isfinite(parameter.nominal):
             made[at] = parameter.nominal * part
         else:
@@ -373,5 +381,5 @@ def _score(parameter: Parameter, truth: float, solution: Solution, at: int, step
     found, low, high = (float(each[at]) for each in (solution.values, solution.low, solution.high))
     apart = abs(found - truth)
     whole = step if parameter.family == "delay" else (
-        parameter.scale if parameter.family == "offset" else abs(truth))
+        parameter.scale if parameter.is_place else abs(truth))
     return Score(parameter, truth, found, low, high, apart / whole, ALLOWED[parameter.family])

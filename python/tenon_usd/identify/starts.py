@@ -85,7 +85,7 @@ def starts_of(model: Model, parameters: list[Parameter], count: int, seed: int) 
                                               random.uniform(-1, 1, len(parameters)))):
             if each.family == "delay":
                 other[at] += SPREAD_STEPS * model.step * part
-            elif each.family == "offset":
+            elif each.low < 0:
                 other[at] += each.scale * part
             else:
                 other[at] = max(other[at], 0.1 * each.scale) * SPREAD ** part

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "tenon/base/path.h"
@@ -18,5 +19,10 @@ bool is_meant(const Path& meant, const Path& object);
 /// Unlimited stays unlimited. Gives how many objects have it.
 std::size_t scale_field(std::string_view list, std::string_view field, Path object, double factor,
                         PhysicsScene& scene);
+
+/// Sets a number, or all components of a vector or a matrix, row by row, found in the same way;
+/// `values` are as many. Gives how many objects have it.
+std::size_t set_field(std::string_view list, std::string_view field, Path object,
+                      std::span<const double> values, PhysicsScene& scene);
 
 }  // namespace tenon::scene
