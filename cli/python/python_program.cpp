@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tenon/base/limits/run_limits.h"
+
 namespace tenon::cli {
 namespace {
 
@@ -105,7 +107,6 @@ struct Stream {
   }
 };
 
-constexpr std::size_t kMostOutput = std::size_t{256} << 20;
 constexpr std::size_t kMostComplaint = 4096;
 constexpr int kLookAgain = 100;  // [ms]
 constexpr auto kPatience = std::chrono::seconds(10);
@@ -140,8 +141,10 @@ void tell_lines(std::string& text, std::string& complaint,
     told(line);
     complaint += line + "\n";
   }
-  if (complaint.size() > kMostComplaint) {
-    complaint.erase(0, complaint.size() - kMostComplaint);
+  for (std::string* each : {&complaint, &text}) {
+    if (each->size() > kMostComplaint) {
+      each->erase(0, each->size() - kMostComplaint);
+    }
   }
 }
 
@@ -164,7 +167,9 @@ Result<PythonAnswer> ask_python_program(const std::string& module,
   Stream output;
   Stream complaint;
   if (output.from < 0 || complaint.from < 0) {
-    return Error(ErrorCode::Io, "the system gives no pipe").with_rule("python.no-pipe");
+    return Error(ErrorCode::Io, "the system gives no pipe")
+        .with_rule("python.no-pipe")
+        .with_fix("let this process open more files: ulimit -n");
   }
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
@@ -190,7 +195,7 @@ Result<PythonAnswer> ask_python_program(const std::string& module,
       complaint.read();
       tell_lines(complaint.text, answer.complaint, told);
     }
-    if (is_ended() || output.text.size() > kMostOutput) {
+    if (is_ended() || output.text.size() > limits::kPythonOutput) {
       ending.ask();
     }
   }
@@ -199,9 +204,10 @@ Result<PythonAnswer> ask_python_program(const std::string& module,
   if (answer.code == kNoPackage) {
     return no_python(python_name() + " has no package tenon_usd");
   }
-  if (output.text.size() > kMostOutput) {
+  if (output.text.size() > limits::kPythonOutput) {
     return Error(ErrorCode::Limit, "the Python package printed more than 256 MiB")
-        .with_rule("python.output");
+        .with_rule("python.output")
+        .with_fix("take fewer joints, or a shorter log");
   }
   answer.output = std::move(output.text);
   return answer;

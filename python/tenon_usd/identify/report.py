@@ -143,7 +143,7 @@ def identified_lines(found: Identified) -> list[str]:
     lines += [f"{each.name}: the log does not tell it; it stays {_short(each.nominal)}"
               for each in found.held]
     lines += [f"{each.name}: it ended at its bound" for each in found.at_bounds]
-    lines += ["", "held-out motion, root mean square of what is left"]
+    lines += ["", "held-out motion, residual (root mean square)"]
     rows = [("joint", "channel", "before", "after", "")]
     for each in found.held_out:
         for joint, before, after in zip(found.joints, each.before, each.after):
@@ -216,7 +216,7 @@ def _plots(found: Identified) -> str:
         made.append(_plot(time, lines, f"{joint}: position [rad or m]; log thick, asset dashed, "
                           "identified thin"))
         made.append(_plot(time, {name: lines[name] - lines["log"] for name in ("before", "after")},
-                          f"{joint}: what is left [rad or m]; asset dashed, identified thin"))
+                          f"{joint}: residual [rad or m]; asset dashed, identified thin"))
     left = len(found.joints) - MAX_PLOTS // 2
     more = f"<p>{left} more joints are not drawn.</p>" if left > 0 else ""
     return "<h2>Held-out motion</h2>" + "".join(made) + more
@@ -263,7 +263,7 @@ def page(found: Identified, asset: str, sources: Sequence[str]) -> str:
     parts = ["<h1>Identification</h1>", _table(["", ""], about), foreign, "<h2>Parameters</h2>",
              _table(["parameter", "asset", "identified", "low (95 %)", "high", "unit", ""],
                     numbers),
-             "<h2>What is left</h2><p>Root mean squares.</p>",
+             "<h2>Residuals</h2><p>Root mean squares.</p>",
              _table(["motion", "channel", "joint", "before", "after"], left)]
     if engines:
         parts.append("<h2>On each engine</h2><p>Root mean square of all positions over the "

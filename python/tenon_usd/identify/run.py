@@ -54,7 +54,7 @@ class RefusedError(Error):
 
 @dataclasses.dataclass(frozen=True)
 class Residuals:
-    """Of one channel, in its unit: root mean squares of what is left on each joint, shape (N,),
+    """Of one channel, in its unit: root mean squares of residuals of each joint, shape (N,),
     with the asset's numbers and with the identified ones; NaN where the log has nothing."""
 
     channel: str
@@ -102,7 +102,7 @@ class Identified:
     unexplained: Array
     replays: tuple[Replay, ...]
     costs: Array
-    """Of each start what is left where it ended, in deviations of the noise of the log; empty of a
+    """Of each start the residual where it ended, in deviations of the noise of the log; empty of a
     single one."""
     motion: dict[str, Array]
     """Of the held-out part: "time" (W, samples), "log", "before", "after" (W, samples, N)."""
@@ -391,7 +391,7 @@ def _replays(asset: Any, log: Log, parts: Sequence[int], parameters: list[Parame
 
 def _on(asset: Any, log: Log, parts: Sequence[int], parameters: list[Parameter], values: Array,
         how: dict[str, Any]) -> tuple[Array, Array]:
-    """What is left of positions on another engine, before and after."""
+    """The residual of positions on another engine, before and after."""
     of_log = [at for at, each in enumerate(parameters) if not FAMILIES[each.family].sets]
     rest = [parameters[at] for at in of_log]
     before = Model(asset, log, parts=parts, **how)

@@ -3,7 +3,7 @@
 """Fits parameters: what is linear first, by least squares of efforts, then by simulation, with
 Gauss-Newton steps of SciPy or, where that is not smooth, CMA-ES.
 
-Weights are the inverse of what is left of each channel and joint, found in rounds: the first with
+Weights are the inverse of the residual of each channel and joint, found in rounds: the first with
 the noise of the log, the next with the residuals of the one before. Outliers count less.
 """
 
@@ -55,7 +55,7 @@ Shown = Callable[[str, int, float], None]
 @dataclasses.dataclass(frozen=True)
 class Solution:
     """`values`, `errors` (standard errors) and `low` to `high` (95 %) of the parameters [SI, rad];
-    `told` is what the log says about them at the end; `cost` what is left (cost_of), in deviations;
+    `told` is what the log says about them at the end; `cost` the residuals (cost_of), in deviations;
     `finished` is False where Ctrl-C ended it: the best that was found."""
 
     values: Array
@@ -194,7 +194,7 @@ class _Fit:
 
     def scan_delays(self, optimize: Any, values: Array) -> Array:
         """The delays around that leave least, with all else as it is and with what would suit each
-        of them best: where commands hold, what is left jumps with a delay, so that no slope leads
+        of them best: where commands hold, residuals jump with a delay, so that no slope leads
         there, and damping makes up for most of a delay that is wrong."""
         reach = 1.5 * max(self.model.step, self.model.log.step)
         for at, parameter in enumerate(self.parameters):
@@ -228,7 +228,7 @@ class _Fit:
         return self.clipped(made)
 
     def reweigh(self, values: Array) -> float:
-        """Weights that make what is left of every channel and joint 1. By which part the one that
+        """Weights that make the residual of every channel and joint 1. By which part the one that
         changes most does."""
         changed = 0.0
         if self._around is not None and np.array_equal(self._around.values, values):

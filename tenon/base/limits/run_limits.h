@@ -15,6 +15,7 @@ inline constexpr std::size_t kCommandBytes = 268'435'456;     ///< of a file of 
 inline constexpr std::size_t kCommandValues = 20'000'000;     ///< numbers in a file of commands
 inline constexpr std::size_t kStateBytes = 1'073'741'824;     ///< of a saved state that is read
 inline constexpr std::uint64_t kRepeatedSteps = 2'000'000;    ///< to restore a state of a run
+inline constexpr std::size_t kPythonOutput = 268'435'456;     ///< bytes that the package answers
 inline constexpr std::size_t kStandardInput = 4'294'967'296;  ///< bytes of a layer from a pipe
 
 }  // namespace tenon::limits
