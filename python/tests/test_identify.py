@@ -579,7 +579,7 @@ class Page(support.FilesTestCase):
         self.assertAlmostEqual(page.drives[0].stiffness, 33, delta=0.66)
 
     def same(self, out, told, command):
-        """But for a tenth of each number: those of fits are not the same on every machine."""
+        """Numbers may differ by a tenth: those of fits are not the same on every machine."""
         (words, numbers), (wanted, known) = parts(out), parts(told)
         self.assertEqual(words, wanted, command)
         for own, page in zip(numbers, known):

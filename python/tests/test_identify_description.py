@@ -29,10 +29,15 @@ LIMITED = HINGE.replace('["PhysicsDriveAPI:angular"]',
                         '["PhysicsDriveAPI:angular", "PhysxJointAPI"]').replace(
     "float physics:lowerLimit", "float physxJoint:maxJointVelocity = 150\n"
     "        float physics:lowerLimit")
+#: As URDF is converted.
+NEWTON = ARM.replace('"PhysicsMassAPI"', '"PhysicsMassAPI", "NewtonMassAPI"').replace(
+    "float physics:mass", "double[] newton:inertia = [0.001, 0.004, 0.004, 0, 0.0002, 0]\n"
+    "        float physics:mass")
 DESCRIBED = [name for name, each in FAMILIES.items() if "." in each.sets]
 #: Assets and what of theirs takes other numbers together.
 TOGETHER = {
     "arm": (ARM, ["mass:.*", "centerOfMass:.*", "inertia:.*", "stiffness"]),
+    "converted": (NEWTON, ["mass:.*b0", "inertia:.*b1"]),
     "finger": (FINGER, ["mimicRatio", "centerOfMass:.*b2", "friction:.*j0"]),
     "limited": (LIMITED, ["velocityLimit", "inertia"]),
 }

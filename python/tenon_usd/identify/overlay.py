@@ -28,6 +28,9 @@ from .parameters import Parameter
 
 #: Floats of the schemas keep this part of a number.
 READ_BACK = 2e-6
+#: Stands above physics:diagonalInertia where it is authored: xx, yy, zz, xy, xz, yz.
+_NEWTON = "newton:inertia"
+_API_OF = {"physics:diagonalInertia": "PhysicsMassAPI", _NEWTON: "NewtonMassAPI"}
 #: What is not a number of the asset, with the reason.
 NOT_WRITTEN = {
     "delay": "no schema of drives has it; tenon_usd.actuators.Delay simulates it",
@@ -152,11 +155,11 @@ def _mass_opinions(stage: _tenon.Stage, path: str, value: float, was: float, uni
     """Mass, and inertia with it, as engines change both."""
     made = [Opinion(path, "PhysicsMassAPI", "physics:mass", "float", value / units.mass)]
     prim = stage[path]
-    if "physics:diagonalInertia" in prim.authored:
-        inertia = np.asarray(prim.get("physics:diagonalInertia"), dtype=np.float64)
-        if (inertia > 0).any():
-            made.append(Opinion(path, "PhysicsMassAPI", "physics:diagonalInertia", "float3",
-                                tuple(float(each) * value / was for each in inertia)))
+    for name, kind in (("physics:diagonalInertia", "float3"), (_NEWTON, "double[]")):
+        inertia = np.asarray(prim.get(name) if name in prim.authored else [], dtype=np.float64)
+        if inertia.any():
+            made.append(Opinion(path, _API_OF[name], name, kind,
+                                tuple(map(float, inertia * value / was))))
     return made
 
 
@@ -188,11 +191,13 @@ def _mimic_opinions(prim: Any, path: str, value: float, angular: tuple[bool, boo
 def _of_bodies(scene: Any, wanted: dict[tuple[str, str], float]
                ) -> dict[tuple[str, str], Array]:
     """Centres of mass (3,) and inertias (3, 3) of bodies that have numbers of `wanted`, the others
-    of them as in the scene: by path and "centerOfMass" or "secondMoment"."""
+    of them as in the scene: by path and what was identified, "centerOfMass", "secondMoment" or
+    "mass", with which inertia changes."""
     made: dict[tuple[str, str], Array] = {}
     for body in scene.bodies:
-        own = np.array(body.center_of_mass, dtype=np.float64)
-        axes, moments = axes_of(np.asarray(body.inertia))
+        own, inertia = (np.array(each, dtype=np.float64)
+                        for each in (body.center_of_mass, body.inertia))
+        axes, moments = axes_of(inertia)
         for kind, numbers in (("centerOfMass", own), ("secondMoment", moments)):
             for at, axis in enumerate("XYZ"):
                 if (kind + axis, body.path) in wanted:
@@ -200,19 +205,28 @@ def _of_bodies(scene: Any, wanted: dict[tuple[str, str], float]
                     made[body.path, kind] = numbers
         if (body.path, "secondMoment") in made:
             made[body.path, "secondMoment"] = inertia_of_moments(axes, moments)
+        elif ("mass", body.path) in wanted:
+            made[body.path, "mass"] = inertia * (wanted["mass", body.path] / body.mass)
     return made
 
 
-def _body_opinions(of: tuple[str, str], value: Array, units: _Units) -> list[Opinion]:
+def _body_opinions(stage: _tenon.Stage, of: tuple[str, str], value: Array, units: _Units
+                   ) -> list[Opinion]:
     path, kind = of
+    if kind == "mass":
+        return []  # _mass_opinions()
     if kind == "centerOfMass":
         return [Opinion(path, "PhysicsMassAPI", "physics:centerOfMass", "point3f",
                         tuple(map(float, value / units.length)))]
-    axes, moments = axes_of(value)
-    diagonal = (moments.sum() - moments) / (units.mass * units.length ** 2)
-    return [Opinion(path, "PhysicsMassAPI", "physics:diagonalInertia", "float3",
-                    tuple(map(float, diagonal))),
+    own = value / (units.mass * units.length ** 2)
+    axes, moments = axes_of(own)
+    made = [Opinion(path, "PhysicsMassAPI", "physics:diagonalInertia", "float3",
+                    tuple(map(float, moments.sum() - moments))),
             Opinion(path, "PhysicsMassAPI", "physics:principalAxes", "quatf", _quaternion(axes))]
+    if _NEWTON in stage[path].authored:
+        six = tuple(float(own[at]) for at in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
+        made.append(Opinion(path, _API_OF[_NEWTON], _NEWTON, "double[]", six))
+    return made
 
 
 def _quaternion(axes: Array) -> tuple[float, ...]:
@@ -256,7 +270,7 @@ def make_overlay(asset: str, output: str, parameters: Sequence[Parameter], value
         elif family == "mass":
             add(_mass_opinions(stage, path, value, bodies[path].mass, units))
     for of, numbers in _of_bodies(scene, wanted).items():
-        add(_body_opinions(of, numbers, units))
+        add(_body_opinions(stage, of, numbers, units))
     for variant in variants or [""]:
         _add_mimics(_opened(asset, variant), wanted, units, add)
         _add_actuators(asset, variant, wanted, units, add)
@@ -391,7 +405,8 @@ def _read_back(text: str, asset: str, output: str, variants: list[str],
                 own = np.asarray(body.center_of_mass if family == "centerOfMass"
                                  else body.inertia)
                 if np.abs(own - numbers).max() > READ_BACK * max(np.abs(numbers).max(), 1e-12):
-                    raise Error(f"{family} of {of} is {own.tolist()}, not the identified "
+                    what = "the centre of mass" if family == "centerOfMass" else "the inertia"
+                    raise Error(f"{what} of {of} is {own.tolist()}, not the identified "
                                 f"{numbers.tolist()}: another layer of the asset is stronger, or "
                                 "the prim is scaled")
     finally:

@@ -155,7 +155,7 @@ class Parameter:
 
     @property
     def is_place(self) -> bool:
-        """Whether it is somewhere in time or space: how large it is says nothing of a change."""
+        """Whether it is a place in time or space, where a part of the number is no measure."""
         return self.family in ("delay", "offset") or self.family.startswith("centerOfMass")
 
 
