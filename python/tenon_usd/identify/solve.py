@@ -55,7 +55,7 @@ Shown = Callable[[str, int, float], None]
 @dataclasses.dataclass(frozen=True)
 class Solution:
     """`values`, `errors` (standard errors) and `low` to `high` (95 %) of the parameters [SI, rad];
-    `told` is what the log says about them at the end; `cost` the residuals (cost_of), in deviations;
+    `told` is what the log says about them at the end; `cost` the residual (cost_of), in deviations;
     `finished` is False where Ctrl-C ended it: the best that was found."""
 
     values: Array
