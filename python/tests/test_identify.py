@@ -583,7 +583,7 @@ class Page(support.FilesTestCase):
         (words, numbers), (wanted, known) = parts(out), parts(told)
         self.assertEqual(words, wanted, command)
         for own, page in zip(numbers, known):
-            self.assertTrue(abs(own - page) <= 0.1 * abs(page) + 1e-9, (own, page, command))
+            self.assertTrue(abs(own - page) <= 0.1 * abs(page) + 2e-6, (own, page, command))
 
 
 def parts(text):
