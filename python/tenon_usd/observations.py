@@ -13,7 +13,9 @@ Names are those of metrics of sweeps (docs/sweep.md): "jointPosition@/hand/joint
 "position.z@/World/can", "driveEffort@/hand/joint", "contactForce@/World/can", "energy". Without an
 axis there are all three; without an object those of all joints, drives or bodies; an object is a
 path, its last element, or a regular expression. "orientation@BODY" is w, x, y, z, "sensor@PATH"
-what a sensor of the asset reads.
+what a sensor of the asset reads, "sensor.position@PATH" and "sensor.position.x@PATH" a part of it,
+"jointPosition.cos@JOINT" and "jointPosition.sin@JOINT" those of an angle. What entries are called
+are names, too.
 """
 
 from __future__ import annotations
@@ -34,6 +36,8 @@ from .world import World
 Array = npt.NDArray[np.float64]
 AXES = ("x", "y", "z")
 QUATERNION = ("w", *AXES)
+#: Of angles.
+TURNS = {"cos": np.cos, "sin": np.sin}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,10 +128,12 @@ class Observer:
     def _add(self, text: str) -> list[Entry]:
         head, at, path = text.partition("@")
         name, _, axis = head.partition(".")
-        if name == "orientation" and not axis:
-            return self._add_orientations(path)
-        if name == "sensor" and not axis:
-            return self._add_sensors(path)
+        if name == "orientation":
+            return self._add_orientations(path, axis)
+        if name == "sensor":
+            return self._add_sensors(path, axis)
+        if name == "jointPosition" and axis in TURNS:
+            return self._add_turns(path, axis)
         kind = _KINDS.get(name)
         if kind is None or (axis and not kind.axes) or (at and not kind.of):
             raise NotFoundError(no_such(text, [*_KINDS, *_MORE]))
@@ -174,29 +180,49 @@ class Observer:
             return float(joint.lower), float(joint.upper), int(joint.type == "prismatic")
         return -math.inf, math.inf, int(":trans" in name)
 
-    def _add_orientations(self, path: str) -> list[Entry]:
+    def _add_orientations(self, path: str, part: str) -> list[Entry]:
+        if part and part not in QUATERNION:
+            raise NotFoundError(f"orientation has w, x, y and z, not {part!r}")
         bodies = self._objects("body", path)
         which = [i for i, _ in bodies]
+        parts = [part] if part else list(QUATERNION)
+        at = [3 + QUATERNION.index(each) for each in parts]
         self._reads.append(lambda: np.asarray(
-            self.world._batch.body_poses()[:, which, 3:]).reshape(self.world.envs, -1))
-        return [Entry(f"orientation.{part}@{body}", "", -1.0, 1.0)
-                for _, body in bodies for part in QUATERNION]
+            self.world._batch.body_poses()[:, which][:, :, at]).reshape(self.world.envs, -1))
+        return [Entry(f"orientation.{each}@{body}", "", -1.0, 1.0)
+                for _, body in bodies for each in parts]
 
-    def _add_sensors(self, path: str) -> list[Entry]:
+    def _add_turns(self, path: str, turn: str) -> list[Entry]:
+        joints = self._objects("joint", path)
+        for _, joint in joints:
+            if self._joint(joint)[2]:
+                raise NotFoundError(f"{joint} slides: it has no {turn}")
+        which = [i for i, _ in joints]
+        self._reads.append(lambda: np.asarray(TURNS[turn](self.world.joints()[0][:, which])))
+        return [Entry(f"jointPosition.{turn}@{joint}", "", -1.0, 1.0) for _, joint in joints]
+
+    def _add_sensors(self, path: str, part: str) -> list[Entry]:
         rows = self.world.sensors(0)
         if not rows:
             raise NotFoundError("the asset has no sensors")
         paths = [row["path"] for row in rows]
         which = fitting(path, paths) if path else list(range(len(paths)))
+        kept = {i: [at for at, (name, _) in enumerate(_numbers(rows[i]))
+                    if not part or name == part or name.startswith(part + ".")] for i in which}
+        if not any(kept.values()):
+            parts = dict.fromkeys(name.partition(".")[0] for i in which
+                                  for name, _ in _numbers(rows[i]))
+            raise NotFoundError(f"sensor.{part}: {no_such(part, list(parts))}")
         self._reads.append(lambda: np.array([
-            [number for i in which for _, number in _numbers(rows_of[i])]
+            [numbers[at][1] for i in which for numbers in (_numbers(rows_of[i]),)
+             for at in kept[i]]
             for rows_of in map(self.world.sensors, range(self.world.envs))]))
         entries = []
         for i in which:
             units = _OF_JOINT_SENSORS if rows[i]["kind"] == "joint" else _OF_SENSORS
-            for part, _ in _numbers(rows[i]):
-                entries.append(Entry(f"sensor.{part}@{paths[i]}",
-                                     units.get(part.partition(".")[0], "")))
+            named = _numbers(rows[i])
+            entries += [Entry(f"sensor.{named[at][0]}@{paths[i]}",
+                              units.get(named[at][0].partition(".")[0], "")) for at in kept[i]]
         return entries
 
 

@@ -64,7 +64,8 @@ class Snippets(support.FilesTestCase):
         self.place_examples()
         text = (support.ROOT / "docs/tasks.md").read_text()
         files = re.findall(r"^```toml\n# (\S+)\n(.*?)^```$", text, re.M | re.S)
-        self.assertEqual([name for name, _ in files], ["balance.toml", "grasp.toml"])
+        self.assertEqual([name for name, _ in files], ["balance.toml", "grasp.toml",
+                                                   "swingup.toml"])
         for name, told in files:
             self.written(name, told)
         own = (support.ROOT / "python/tenon_usd/tasks/balance.toml").read_text()

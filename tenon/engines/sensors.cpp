@@ -95,11 +95,39 @@ Result<void> Sensors::restart() {
   readings_.assign(count, {});
   histories_.assign(count, {});
   periods_done_.assign(count, -kInfinity);
-  look_again();
+  keep_states();
   return measure_all();
 }
 
 void Sensors::look_again() {
+  keep_states();
+  moved_ = true;
+}
+
+const std::vector<SensorReading>& Sensors::readings() {
+  for (Index i = 0; moved_ && i < readings_.size(); ++i) {
+    if (scene_.sensors[i].enabled && readings_[i].time == simulation_.time()) {
+      measure_states(i);
+    }
+  }
+  moved_ = false;
+  return readings_;
+}
+
+void Sensors::measure_states(Index i) {
+  const Sensor& sensor = scene_.sensors[i];
+  if (sensor.kind == SensorKind::Frame) {
+    measure_frame(sensor, readings_[i]);
+  } else if (sensor.kind == SensorKind::Rays) {
+    measure_rays(sensor, readings_[i]);
+  } else if (sensor.kind == SensorKind::Imu) {
+    measure_turn(sensor, histories_[i], readings_[i]);
+  } else if (sensor.kind == SensorKind::Joint) {
+    readings_[i].joint = simulation_.joint_state(*sensor.joint);
+  }
+}
+
+void Sensors::keep_states() {
   for (const Index body : bodies_) {
     at_begin_[body] = simulation_.body_state(body);
   }
@@ -107,12 +135,13 @@ void Sensors::look_again() {
 
 Result<void> Sensors::after_step() {
   TENON_CHECK(measure_all());
-  look_again();
+  keep_states();
   return {};
 }
 
 Result<void> Sensors::measure_all() {
   bool found_touches = false;
+  moved_ = false;
   for (Index i = 0; i < scene_.sensors.size(); ++i) {
     const Sensor& sensor = scene_.sensors[i];
     if (!sensor.enabled || !is_due(i)) {
@@ -199,16 +228,22 @@ Result<void> Sensors::measure_imu(const Sensor& sensor, History& history, Sensor
                              cross(spin, cross(spin, arm)) -
                              simulation_.gravity(scene_.bodies[body].scene);
   const Quatd at_begin = begin.pose.orientation * sensor.pose.orientation;
-  const Quatd at_end = now.pose.orientation * sensor.pose.orientation;
   keep_last(history.accelerations, rotate(conjugate(at_begin), acceleration),
             sensor.acceleration_width);
-  keep_last(history.velocities, rotate(conjugate(at_end), now.angular_velocity),
-            sensor.velocity_width);
-  keep_last(history.orientations, at_end, sensor.orientation_width);
+  keep_last(history.velocities, {}, sensor.velocity_width);
+  keep_last(history.orientations, {}, sensor.orientation_width);
   reading.linear_acceleration = mean(history.accelerations);
+  measure_turn(sensor, history, reading);
+  return {};
+}
+
+// In place of the last of both.
+void Sensors::measure_turn(const Sensor& sensor, History& history, SensorReading& reading) const {
+  const BodyState now = simulation_.body_state(*sensor.body);
+  history.orientations.back() = now.pose.orientation * sensor.pose.orientation;
+  history.velocities.back() = rotate(conjugate(history.orientations.back()), now.angular_velocity);
   reading.angular_velocity = mean(history.velocities);
   reading.orientation = mean(history.orientations);
-  return {};
 }
 
 void Sensors::measure_frame(const Sensor& sensor, SensorReading& reading) const {

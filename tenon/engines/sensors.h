@@ -29,13 +29,14 @@ class Sensors {
   /// Starts again without the former measurements: at the start, and where the simulation was reset
   /// or restored.
   Result<void> restart();
-  /// Bodies were put elsewhere between two steps.
+  /// Bodies were put elsewhere between two steps: what was measured at this time and is of states
+  /// is measured again; forces and accelerations stay those of the step.
   void look_again();
   /// After each step.
   Result<void> after_step();
 
   /// (sensor_count); of one that is not enabled all is zero.
-  const std::vector<SensorReading>& readings() const { return readings_; }
+  const std::vector<SensorReading>& readings();
 
  private:
   /// The last measurements of an IMU.
@@ -54,6 +55,9 @@ class Sensors {
   Result<void> find_touches();
   void measure_contact(const scene::Sensor& sensor, SensorReading& reading) const;
   Result<void> measure_imu(const scene::Sensor& sensor, History& history, SensorReading& reading);
+  void measure_states(scene::Index sensor);
+  void measure_turn(const scene::Sensor& sensor, History& history, SensorReading& reading) const;
+  void keep_states();
   void measure_frame(const scene::Sensor& sensor, SensorReading& reading) const;
   void measure_rays(const scene::Sensor& sensor, SensorReading& reading) const;
   Result<void> measure_wrench(const scene::Sensor& sensor, SensorReading& reading) const;
@@ -67,6 +71,7 @@ class Sensors {
   std::vector<double> periods_done_;  ///< (sensor_count), counted from time 0
   std::vector<scene::Index> bodies_;  ///< whose states are looked at
   std::vector<BodyState> at_begin_;   ///< (body_count), of these, at the beginning of the step
+  bool moved_ = false;                ///< since the last measurement, other than by a step
   std::vector<double> ball_radii_;    ///< (collider_count), about their origins, where rays are
   std::vector<std::vector<Touch>> touches_;  ///< (body_count), of bodies with contact sensors
 };

@@ -161,8 +161,8 @@ struct BodyAcceleration {
 };
 
 /// What one sensor read last. Forces and accelerations are those of the step that was just made,
-/// seen in frames as they stood at its beginning; velocities, orientations and coordinates are
-/// those at its end, as states have them.
+/// seen in frames as they stood at its beginning; velocities, orientations, distances and
+/// coordinates are those at its end, as states have them, also where these were set since.
 struct SensorReading {
   double time = 0;  ///< [s] of the measurement
   // Of SensorKind::Contact.

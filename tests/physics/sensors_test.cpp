@@ -139,6 +139,37 @@ TEST(Sensors, AFrameReadsWhereItIsAndHowItMoves) {
 
 // A box of which one ray leads down to the ground, one to the side where nothing is, and one is too
 // short; its own shape is no obstacle.
+// Episodes begin where joints and bodies are set, without a step.
+TEST(Sensors, OfStatesReadWhatWasSetSinceTheStep) {
+  Measured box(kGround + box_at(1,
+                                "def Xform \"Tip\" { custom token tenon:sensor = \"frame\"\n"
+                                "double3 xformOp:translate = (0.1, 0, 0)\n"
+                                "uniform token[] xformOpOrder = [\"xformOp:translate\"] }\n"
+                                "def IsaacImuSensor \"Imu\" {}\n"
+                                "def IsaacRaycastSensor \"Rays\" {\n"
+                                "uniform vector3f[] rayDirections = [(0, 0, -1)]\n"
+                                "uniform point3f[] rayOrigins = [(0, 0, 0)]\n"
+                                "float minRange = 0\nfloat maxRange = 100\n}\n"));
+  const auto set = [&](double height) {
+    engines::BodyState state = box.world().body_state(0);
+    state.pose = {{{0, 0, height}}, rotation_about({{0, 0, 1}}, kPi / 2)};
+    state.angular_velocity = {{0, 0, 3}};
+    ASSERT_TRUE(box.world().set_body_state(0, state).has_value());
+    expect_near(box.reading("/Box/Tip").position, {{0, 0.1, height}}, 1e-9);
+    expect_near(box.reading("/Box/Tip").angular_velocity, {{0, 0, 3}}, 1e-9);
+    expect_near(box.reading("/Box/Imu").angular_velocity, {{0, 0, 3}}, 1e-9);
+    EXPECT_NEAR(box.reading("/Box/Rays").distances.at(0), height, 1e-6);
+  };
+  set(5);
+  box.run(0.01);
+  const Vec3d felt = box.reading("/Box/Imu").linear_acceleration;
+  set(7);
+  EXPECT_EQ(box.reading("/Box/Imu").linear_acceleration, felt);
+  ASSERT_TRUE(box.world().reset().has_value());
+  expect_near(box.reading("/Box/Tip").position, {{0.1, 0, 1.2}}, 1e-9);
+  set(3);
+}
+
 TEST(Sensors, RaysReadHowFarOtherThingsAre) {
   Measured box(
       kGround +

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -56,6 +58,9 @@ class TaskEnv(AssetVectorEnv):
             if value is not None:
                 given[key] = value
         given |= options
+        if type(self).reward is TaskEnv.reward and not (
+                read.rewards or any(each.reward for each in read.terminations)):
+            warnings.warn(f"{read.source} has no [[reward]]: every step gives 0", stacklevel=2)
         given["outputs"] = [*given.get("outputs", ()), *outputs_of(self._names())]
         super().__init__(read.asset_path if asset is None else asset, num_envs, **given)
 
@@ -72,7 +77,7 @@ class TaskEnv(AssetVectorEnv):
         found = []
         for kind, rows in kinds:
             for i, row in enumerate(rows, 1):
-                of = [row.of] if isinstance(row.of, str) else list(row.of)
+                of = list(_listed(row.of))
                 to = [row.to] if isinstance(row.to, str) else []
                 found.append((f"{kind} {i}", row, of + to))
         return found
@@ -104,7 +109,7 @@ class TaskEnv(AssetVectorEnv):
         self._others: dict[str, Observer] = {}
         self._read_now()
         self._entries = tuple(entry for row in task.observations for entry in self._seen(row))
-        self._scales = np.concatenate([np.full(self.values(row.of).shape[1], row.scale)
+        self._scales = np.concatenate([np.full(self._size(row.of), row.scale)
                                        for row in task.observations] or [np.zeros(0)])
         self._check_sizes()
 
@@ -126,13 +131,15 @@ class TaskEnv(AssetVectorEnv):
         """Distances are between as many numbers. Raises TaskError."""
         faults = []
         for place, row, _ in self._rows():
-            of = [row.of] if isinstance(row.of, str) else row.of
-            size = sum(self.values(name).shape[1] for name in of)
+            size = self._size(row.of)
             to = self.values(row.to).shape[1] if isinstance(row.to, str) else len(row.to)
             if to not in (0, 1, size):
                 faults.append(Fault(place, row.line, f"`of` has {size} numbers, `to` has {to}"))
         if faults:
             raise TaskError(self.task.source, faults)
+
+    def _size(self, of: str | tuple[str, ...]) -> int:
+        return sum(self.values(name).shape[1] for name in _listed(of))
 
     def _goal(self, name: str) -> Float:
         goal = name.removeprefix("goal.")
@@ -149,7 +156,7 @@ class TaskEnv(AssetVectorEnv):
 
     def _seen(self, row: Observation) -> list[Entry]:
         """The numbers of a row; without ranges where they are seen from elsewhere."""
-        entries, to = self._of(row.of), row.to
+        entries, to = [entry for name in _listed(row.of) for entry in self._of(name)], row.to
         if isinstance(to, str):
             return [Entry(f"{entry.name} - {to}", entry.unit) for entry in entries]
         if not to:
@@ -208,6 +215,7 @@ class TaskEnv(AssetVectorEnv):
             "square": lambda: square,
             "near": lambda: np.exp(-square / row.width**2),
             "within": lambda: (np.sqrt(square) < row.width).astype(np.float64),
+            "tolerance": lambda: tolerance(offset, row).mean(axis=1),
         }[row.term]()
         return np.asarray(made)
 
@@ -228,13 +236,22 @@ class TaskEnv(AssetVectorEnv):
         return over
 
     def reward(self) -> Array:
-        """The sum of the terms, shape (envs,)."""
+        """The sum of the terms and of their products, shape (envs,)."""
         total = np.zeros(self.num_envs)
+        products: dict[str, Array] = {}
         for row in self.task.rewards:
-            total += row.weight * self._terms[row.name]
+            if row.product:
+                products[row.product] = products.get(row.product, 1.0) * self._weighed(row)
+            else:
+                total += self._weighed(row)
+        for made in products.values():
+            total += made
         for reason in self.task.terminations:
             total += reason.reward * self._reasons[reason.name]
         return total
+
+    def _weighed(self, row: Reward) -> Array:
+        return row.offset + row.weight * self._terms[row.name]
 
     def is_over(self) -> Mask:
         """Where any reason to end holds, shape (envs,)."""
@@ -245,14 +262,13 @@ class TaskEnv(AssetVectorEnv):
 
     def told(self) -> dict[str, Any]:
         """Terms of the reward times their weights, and reasons of an end, by name."""
-        return {**{f"reward.{row.name}": row.weight * self._terms[row.name]
-                   for row in self.task.rewards},
+        return {**{f"reward.{row.name}": self._weighed(row) for row in self.task.rewards},
                 **{f"over.{name}": held for name, held in self._reasons.items()}}
 
     def observe(self) -> Array:
         """Observations of all environments with their scales, without noise."""
         self._read_now()
-        numbers = [self._offset((row.of,), row.to) for row in self.task.observations]
+        numbers = [self._offset(_listed(row.of), row.to) for row in self.task.observations]
         whole = np.concatenate(numbers or [np.zeros((self.num_envs, 0))], axis=1)
         return np.asarray(whole * self._scales)
 
@@ -260,7 +276,7 @@ class TaskEnv(AssetVectorEnv):
         observations = super()._observed()
         at = 0
         for row in self.task.observations:
-            size = self.values(row.of).shape[1]
+            size = self._size(row.of)
             if row.noise is not None:
                 for one, random in zip(observations[:, at:at + size], self._randoms):
                     one += row.noise.sample(random, one.shape)
@@ -294,6 +310,31 @@ class TaskEnv(AssetVectorEnv):
         self.pushes.started(envs)
         self.actions = np.where(envs[:, None], 0.0, self.actions)
         self._look()
+
+
+def _listed(of: str | tuple[str, ...]) -> tuple[str, ...]:
+    return (of,) if isinstance(of, str) else of
+
+
+def tolerance(numbers: Float, row: Reward) -> Float:
+    """1 where a number is from `low` to `high`, less the further it is beyond: `at_margin` where
+    that is the margin. The same shape as `numbers`."""
+    beyond = np.maximum(np.maximum(row.low - numbers, numbers - row.high), 0.0)
+    if row.margin == 0:
+        return np.asarray((beyond == 0).astype(np.float64))
+    far, v = beyond / row.margin, row.at_margin
+    with np.errstate(over="ignore"):
+        return np.asarray({
+            "gaussian": lambda: v ** (far ** 2),
+            "linear": lambda: np.maximum(1 - far * (1 - v), 0),
+            "quadratic": lambda: np.maximum(1 - far ** 2 * (1 - v), 0),
+            "cosine": lambda: 0.5 + 0.5 * np.cos(np.minimum(
+                far * math.acos(2 * v - 1), math.pi)),
+            "hyperbolic": lambda: 1 / np.cosh(far * math.acosh(1 / v)),
+            "long_tail": lambda: 1 / (1 + far ** 2 * (1 / v - 1)),
+            "reciprocal": lambda: 1 / (1 + far * (1 / v - 1)),
+            "tanh_squared": lambda: 1 - np.tanh(far * math.atanh(math.sqrt(1 - v))) ** 2,
+        }[row.shape]())
 
 
 def single_task(task: Task | PathLike, **options: Any) -> SingleEnv:

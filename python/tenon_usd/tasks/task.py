@@ -22,7 +22,11 @@ EXAMPLES = Path(__file__).parent
 MAX_BYTES = 1 << 20
 MAX_ROWS = 1000
 #: What a reward is made of (docs/tasks.md has the formulas).
-TERMS = ("constant", "value", "distance", "square", "near", "within", "action", "action_change")
+TERMS = ("constant", "value", "distance", "square", "near", "within", "tolerance", "action",
+         "action_change")
+#: How a tolerance falls off, from 1 at its bounds to `at_margin` as far beyond them as its margin.
+SHAPES = ("gaussian", "linear", "quadratic", "cosine", "hyperbolic", "long_tail", "reciprocal",
+          "tanh_squared")
 #: What a row [[reset]] puts: joints, all of them without a name, then bodies.
 STARTS = ("jointPosition", "jointVelocity", "position.x", "position.y", "position.z", "yaw")
 DRAWS: dict[str, Callable[[Any], Distribution]] = {
@@ -42,9 +46,10 @@ class TaskError(FileError):
 @dataclasses.dataclass(frozen=True)
 class Observation:
     """One row [[observation]]: the numbers that `of` names (tenon_usd.observations, "goal.NAME",
-    "action"), seen from `to`, times `scale`, with `noise` in the unit that comes of it."""
+    "action"; a text or several), seen from `to`, times `scale`, with `noise` in the unit that comes
+    of it."""
 
-    of: str
+    of: str | tuple[str, ...]
     scale: float = 1.0
     noise: Distribution | None = None
     to: str | tuple[float, ...] = ()
@@ -53,7 +58,9 @@ class Observation:
 
 @dataclasses.dataclass(frozen=True)
 class Reward:
-    """One row [[reward]]: `weight` times the `term` of the numbers `of`, seen from `to`."""
+    """One row [[reward]]: `offset` + `weight` times the `term` of the numbers `of`, seen from `to`;
+    rows of the same `product` are multiplied with each other. `low` to `at_margin`: of a tolerance.
+    """
 
     name: str
     term: str
@@ -62,6 +69,13 @@ class Reward:
     to: str | tuple[float, ...] = ()
     width: float = 1.0
     line: int = dataclasses.field(default=0, compare=False)
+    offset: float = 0.0
+    product: str = ""
+    low: float = 0.0
+    high: float = 0.0
+    margin: float = 0.0
+    at_margin: float = 0.1
+    shape: str = "gaussian"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -204,9 +218,8 @@ class _TaskReader(Reader):
 
 def _observation(reader: _TaskReader, row: Mapping[str, Any]) -> Observation | None:
     reader.unknown(row, ("of", "to", "scale", "noise"))
-    of = reader.text(row, "of")
-    if of is None:
-        reader.fault("`of` says what is observed, such as \"jointPosition\"")
+    of = reader.names(row, "of", 'a name such as "jointPosition"')
+    if not of:
         return None
     noise = None
     if isinstance(table := row.get("noise", {}), dict):
@@ -216,8 +229,8 @@ def _observation(reader: _TaskReader, row: Mapping[str, Any]) -> Observation | N
     else:
         reader.fault(f"noise is {table!r}; expected a table such as {{normal = [0, 0.01]}}",
                      "noise")
-    return Observation(of, reader.number(row, "scale", 1.0, -1e300, 1e300), noise,
-                       reader.place(row), reader.line)
+    scale = reader.number(row, "scale", 1.0, -1e300, 1e300)
+    return Observation(of[0] if len(of) == 1 else of, scale, noise, reader.place(row), reader.line)
 
 
 def _stage(reader: _TaskReader, table: Any) -> Stage | None:
@@ -269,7 +282,9 @@ def _action(reader: _TaskReader, row: Mapping[str, Any]) -> list[Actuator] | Non
 
 
 def _reward(reader: _TaskReader, row: Mapping[str, Any]) -> Reward | None:
-    reader.unknown(row, ("name", "term", "weight", "of", "to", "width"))
+    bounds = ("low", "high", "margin", "at_margin", "shape")
+    reader.unknown(row, ("name", "term", "weight", "of", "to", "width", "offset", "product",
+                         *bounds))
     term = reader.text(row, "term")
     if term not in TERMS:
         reader.fault(f"term is {term!r}; there are {', '.join(TERMS)}", "term")
@@ -278,9 +293,31 @@ def _reward(reader: _TaskReader, row: Mapping[str, Any]) -> Reward | None:
     of = () if alone and "of" not in row else reader.names(row, "of")
     if alone and of:
         reader.fault(f"{term} is of nothing else; leave `of` out", "of")
+    for key in bounds:
+        if key in row and term != "tolerance":
+            reader.fault(f"{key} belongs to the term tolerance, not to {term}", key)
     name = reader.text(row, "name", term)
-    return Reward(name or term, term, reader.number(row, "weight", 1.0, -1e300, 1e300), of,
-                  reader.place(row), reader.number(row, "width", 1.0, 1e-300, 1e300), reader.line)
+    made = Reward(name or term, term, reader.number(row, "weight", 1.0, -1e300, 1e300), of,
+                  reader.place(row), reader.number(row, "width", 1.0, 1e-300, 1e300), reader.line,
+                  reader.number(row, "offset", 0.0, -1e300, 1e300),
+                  reader.text(row, "product") or "")
+    return made if term != "tolerance" else _tolerance(reader, row, made)
+
+
+def _tolerance(reader: _TaskReader, row: Mapping[str, Any], made: Reward) -> Reward | None:
+    low = reader.number(row, "low", 0.0, -1e300, 1e300)
+    high = reader.number(row, "high", max(low, 0.0), -1e300, 1e300)
+    shape = reader.text(row, "shape", "gaussian") or ""
+    # These reach 0 at a distance of their own; the others come near it alone.
+    ends = shape in ("linear", "quadratic", "cosine")
+    at_margin = reader.number(row, "at_margin", 0.1, 0.0 if ends else 1e-300, 1 - 1e-9)
+    if low > high:
+        reader.fault(f"low is {low:g} and high {high:g}", "low")
+    if shape not in SHAPES:
+        reader.fault(f"shape is {shape!r}; there are {', '.join(SHAPES)}", "shape")
+        return None
+    return dataclasses.replace(made, low=low, high=high, at_margin=at_margin, shape=shape,
+                               margin=reader.number(row, "margin", 0.0, 0.0, 1e300))
 
 
 def _termination(reader: _TaskReader, row: Mapping[str, Any]) -> Termination | None:
@@ -315,7 +352,7 @@ def _start(reader: _TaskReader, row: Mapping[str, Any]) -> Start | None:
                      "position.x@BODY (y and z likewise) or yaw@BODY", "of")
         return None
     if "value" in row:
-        return Start(of, reader.number(row, "value", 0.0, -1e300, 1e300), reader.line)
+        return Start(of, reader.either(row["value"], "value"), reader.line)
     drawn = reader.draw(row, of)
     return None if drawn is None else Start(of, drawn, reader.line)
 
