@@ -28,7 +28,7 @@ from .parameters import Parameter
 
 #: Floats of the schemas keep this part of a number.
 READ_BACK = 2e-6
-#: Stands above physics:diagonalInertia where it is authored: xx, yy, zz, xy, xz, yz.
+#: Counts in place of physics:diagonalInertia where it is authored: xx, yy, zz, xy, xz, yz.
 _NEWTON = "newton:inertia"
 _API_OF = {"physics:diagonalInertia": "PhysicsMassAPI", _NEWTON: "NewtonMassAPI"}
 #: What is not a number of the asset, with the reason.
