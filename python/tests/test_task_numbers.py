@@ -80,7 +80,7 @@ class Observations(Files):
 
 class Rewards(Files):
     def test_a_tolerance_is_one_within_its_bounds_and_falls_beyond(self):
-        """By shape: its value half a margin and two margins beyond, where it is 0.2 at the margin."""
+        """By shape: half a margin beyond the bounds and two, where it is 0.2 at one."""
         shapes = {"gaussian": (0.2 ** 0.25, 0.2 ** 4), "linear": (0.6, 0), "quadratic": (0.8, 0),
                   "cosine": (0.5 + 0.5 * math.cos(math.acos(-0.6) / 2), 0),
                   "hyperbolic": (1 / math.cosh(math.acosh(5) / 2),
