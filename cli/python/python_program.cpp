@@ -169,7 +169,7 @@ Result<PythonAnswer> ask_python_program(const std::string& module,
   if (output.from < 0 || complaint.from < 0) {
     return Error(ErrorCode::Io, "the system gives no pipe")
         .with_rule("python.no-pipe")
-        .with_fix("let this process open more files: ulimit -n");
+        .with_fix("allow more open files (ulimit -n)");
   }
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);

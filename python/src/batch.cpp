@@ -33,16 +33,22 @@ bool needs_models(const std::vector<Variation>& variations) {
   });
 }
 
+/// The scene with the fields that environment i drew.
+Result<std::shared_ptr<scene::PhysicsScene>> drawn_scene(const Batch& batch, std::size_t i) {
+  auto own = std::make_shared<scene::PhysicsScene>(*batch.scene);
+  for (std::size_t v = 0; v < batch.variations.size(); ++v) {
+    if (batch.variations[v].place == VariationPlace::Field) {
+      TENON_CHECK(vary_scene(batch.variations[v], batch.drawn[i][v].front(), *own));
+    }
+  }
+  return own;
+}
+
 /// One model for each environment, of a scene of its own.
 Result<engines::Environments> make_each(Batch& batch, const BatchOptions& options) {
   std::vector<engines::World> worlds;
   for (std::size_t i = 0; i < options.count; ++i) {
-    auto own = std::make_shared<scene::PhysicsScene>(*batch.scene);
-    for (std::size_t v = 0; v < batch.variations.size(); ++v) {
-      if (batch.variations[v].place == VariationPlace::Field) {
-        TENON_CHECK(vary_scene(batch.variations[v], batch.drawn[i][v].front(), *own));
-      }
-    }
+    TENON_TRY(auto own, drawn_scene(batch, i));
     Diagnostics again;  // what there is to say the first one says
     TENON_TRY(engines::World world, make_world(batch.engine, *own, options.simulation,
                                                i == 0 ? batch.diagnostics : again));
@@ -172,17 +178,14 @@ Result<void> Batch::set_fields(const std::vector<FieldKey>& fields,
                                std::span<const double> values) {
   const std::size_t wide = values.size() / size();
   const auto row = [&](std::size_t i) { return values.subspan(i * wide, wide); };
-  const auto before = [&](std::size_t i) {
-    return own_scenes.empty() ? scene.get() : own_scenes[i].get();
-  };
+  const bool alike = !needs_models(variations);
   std::vector<std::shared_ptr<scene::PhysicsScene>> made;
   std::vector<engines::Environments> parts;
   for (std::size_t begin = 0, end = 0; begin < size(); begin = end) {
-    while (end < size() && before(end) == before(begin) &&
-           std::ranges::equal(row(end), row(begin))) {
+    do {
       ++end;
-    }
-    const auto own = std::make_shared<scene::PhysicsScene>(*before(begin));
+    } while (alike && end < size() && std::ranges::equal(row(end), row(begin)));
+    TENON_TRY(const auto own, drawn_scene(*this, begin));
     TENON_CHECK(write_fields(fields, row(begin), *own));
     Diagnostics again;  // said when the batch was made
     TENON_TRY(auto part,

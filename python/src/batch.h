@@ -63,8 +63,9 @@ class Batch {
   /// What environment i draws from its next reset on: numbers for each variation, as many as it
   /// drew; of fields of the scene those that it has. Errors: Invalid.
   Result<void> set_drawn(std::size_t i, std::vector<std::vector<double>> numbers);
-  /// Sets numbers of the description that engines do not change while they run. All environments
-  /// are made again, at their start; neighbours with the same numbers share a model. `values` has a
+  /// Sets numbers of the description that engines do not change while they run; all others are as
+  /// they were read or drawn, whatever was set before. All environments are made again, at their
+  /// start; neighbours with the same numbers share a model. `values` has a
   /// row for each environment, of all fields one behind the other. Errors: NotFound where nothing
   /// has a field; those of making a simulation.
   Result<void> set_fields(const std::vector<FieldKey>& fields, std::span<const double> values);

@@ -116,6 +116,17 @@ class Described(Case):
                         self.assertLess(np.nanmax(np.abs(one - other)), 2e-5)
                     self.assertGreater(np.nanmax(np.abs(made[1] - made[0])), 2e-3)
 
+    def test_numbers_of_an_earlier_run_are_forgotten(self):
+        asset, log, single, values = self.other("arm")
+        own = [at for at, each in enumerate(single) if each.family.startswith("secondMoment")]
+        others = [at for at, each in enumerate(single) if each.family.startswith("centerOfMass")]
+        model = Model(asset, log, step=STEP)
+        for at in (others, own):
+            made = model.predict([single[i] for i in at], values[None, at])["position"]
+        real = Model(asset, log, step=STEP).predict([single[i] for i in own],
+                                                    values[None, own])["position"]
+        np.testing.assert_array_equal(made, real)
+
     def test_inertia_does_not_change_with_a_mass_that_is_identified_beside_it(self):
         asset = self.asset(ARM)
         world = tenon.World(asset)

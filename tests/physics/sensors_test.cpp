@@ -137,8 +137,6 @@ TEST(Sensors, AFrameReadsWhereItIsAndHowItMoves) {
   expect_near(rotate(tip.orientation, {{1, 0, 0}}), {{-out[1], out[0], 0}}, 1e-3);
 }
 
-// A box of which one ray leads down to the ground, one to the side where nothing is, and one is too
-// short; its own shape is no obstacle.
 // Episodes begin where joints and bodies are set, without a step.
 TEST(Sensors, OfStatesReadWhatWasSetSinceTheStep) {
   Measured box(kGround + box_at(1,
@@ -170,6 +168,8 @@ TEST(Sensors, OfStatesReadWhatWasSetSinceTheStep) {
   set(3);
 }
 
+// A box of which one ray leads down to the ground, one to the side where nothing is, and one is too
+// short; its own shape is no obstacle.
 TEST(Sensors, RaysReadHowFarOtherThingsAre) {
   Measured box(
       kGround +

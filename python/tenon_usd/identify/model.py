@@ -326,7 +326,8 @@ class Model:
     def check(self, parameters: list[Parameter]) -> list[tuple[Parameter, str]]:
         """Those that the engine cannot set while it runs, with the reason."""
         refused = []
-        world = self._make(1)
+        world = self.world(1, True)
+        world.reset()
         for parameter in parameters:
             try:
                 start = np.array([parameter.start])

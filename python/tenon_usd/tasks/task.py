@@ -352,7 +352,9 @@ def _start(reader: _TaskReader, row: Mapping[str, Any]) -> Start | None:
                      "position.x@BODY (y and z likewise) or yaw@BODY", "of")
         return None
     if "value" in row:
-        return Start(of, reader.either(row["value"], "value"), reader.line)
+        value = (reader.number(row, "value", 0.0, -1e300, 1e300) if is_number(row["value"])
+                 else reader.either(row["value"], "value"))
+        return Start(of, value, reader.line)
     drawn = reader.draw(row, of)
     return None if drawn is None else Start(of, drawn, reader.line)
 
